@@ -1,0 +1,80 @@
+// A planned motion: quintic position pieces over absolute time, and the heading beside them (Section "Trajectory
+// representation", eq. 5-6). Fixed capacity, so that copying and evaluating never allocate. Frame: world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cassert>
+
+#include "spf/trajectory/heading_profile.hpp"
+
+namespace spf {
+
+/// Flat output of the position and its derivatives at one instant, all in world.
+struct FlatState {
+  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();      ///< [m]
+  Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();      ///< [m/s]
+  Eigen::Vector2d acceleration_world = Eigen::Vector2d::Zero();  ///< [m/s^2]
+};
+
+/// p(t) = sum_k coefficients.row(k) t^k for local_time t in [0, duration].
+struct QuinticPiece {
+  Eigen::Matrix<double, 6, 2> coefficients = Eigen::Matrix<double, 6, 2>::Zero();
+  double duration = 0.0;  ///< [s]
+
+  [[nodiscard]] Eigen::Vector2d position(double local_time) const;
+  [[nodiscard]] Eigen::Vector2d velocity(double local_time) const;
+  [[nodiscard]] Eigen::Vector2d acceleration(double local_time) const;
+  [[nodiscard]] Eigen::Vector2d jerk(double local_time) const;
+};
+
+/// Value type. Before its start it stands at its head position, after its end at its tail position, with zero
+/// velocity in both: a plan that is not renewed in time means "stand".
+class Trajectory {
+ public:
+  static constexpr int kMaxPieces = 16;
+
+  Trajectory() = default;
+  explicit Trajectory(double start_time) : start_time_{start_time} {}
+
+  /// A trajectory that stands at a place from start_time on (one piece of the given duration).
+  [[nodiscard]] static Trajectory standing(const Eigen::Vector2d& position_world, double start_time,
+                                           double duration, const HeadingProfile& heading = {});
+
+  /// Appends a piece with duration > 0; at most kMaxPieces.
+  void append(const QuinticPiece& piece);
+  void set_heading(const HeadingProfile& heading) { heading_ = heading; }
+  /// The same motion, begun at another time (the heading profile is shifted with it).
+  void set_start_time(double start_time);
+
+  [[nodiscard]] bool empty() const { return piece_count_ == 0; }
+  [[nodiscard]] int piece_count() const { return piece_count_; }
+  [[nodiscard]] const QuinticPiece& piece(int index) const {
+    assert(0 <= index && index < piece_count_);
+    return pieces_[static_cast<std::size_t>(index)];
+  }
+  [[nodiscard]] const HeadingProfile& heading() const { return heading_; }
+  [[nodiscard]] double start_time() const { return start_time_; }  ///< [s]
+  [[nodiscard]] double duration() const { return duration_; }      ///< [s]
+  [[nodiscard]] double end_time() const { return start_time_ + duration_; }
+
+  /// Position, velocity, acceleration at an absolute time. Requires !empty().
+  [[nodiscard]] FlatState state(double time) const;
+  [[nodiscard]] Eigen::Vector2d position(double time) const;
+  [[nodiscard]] Eigen::Vector2d tail_position() const;
+  /// Bounds over the motion, found from polynomial roots to rounding, not by sampling [m/s], [m/s^2].
+  [[nodiscard]] double max_speed() const;
+  [[nodiscard]] double max_acceleration() const;
+  /// Length of the path from start to end [m], by quadrature.
+  [[nodiscard]] double length() const;
+
+ private:
+  std::array<QuinticPiece, kMaxPieces> pieces_;
+  int piece_count_ = 0;
+  double start_time_ = 0.0;
+  double duration_ = 0.0;
+  HeadingProfile heading_;
+};
+
+}  // namespace spf
