@@ -1,0 +1,24 @@
+// Belief about one teammate, from its broadcasts.
+#pragma once
+
+#include "spf/world/trajectory_message.hpp"
+
+namespace spf {
+
+struct Peer {
+  int robot_id = 0;
+  PeerState state = PeerState::stopped;
+  double radius = 0.3;          ///< [m]
+  double position_sigma = 0.0;  ///< [m]
+  double received_time = 0.0;   ///< [s]
+  bool expired = false;         ///< the message is too old: the peer is a disc at its last known place, growing
+  double growth = 0.0;          ///< [m] added to the radius of an expired peer
+  Trajectory trajectory;
+
+  /// Position at an absolute time [m]; for an expired peer the last known place.
+  [[nodiscard]] Eigen::Vector2d position(double time) const;
+  /// Velocity at an absolute time [m/s].
+  [[nodiscard]] Eigen::Vector2d velocity(double time) const;
+};
+
+}  // namespace spf

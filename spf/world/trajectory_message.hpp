@@ -1,0 +1,23 @@
+// What a robot tells its peers: its committed trajectory and its state (design: team).
+#pragma once
+
+#include <cstdint>
+
+#include "spf/trajectory/trajectory.hpp"
+
+namespace spf {
+
+enum class PeerState { moving, braking, stopped, arrived };
+
+struct TrajectoryMessage {
+  int robot_id = 0;            ///< also the priority: the smaller number goes first (paper)
+  std::uint32_t sequence = 0;  ///< grows with every message of this robot
+  double sent_time = 0.0;      ///< [s]
+  double expiry_time = 0.0;    ///< [s] after this the peer is only a disc at its last known place
+  double radius = 0.3;         ///< [m] of the robot
+  double position_sigma = 0.0; ///< [m] how far the robot may be from its trajectory (own pose and tracking error)
+  PeerState state = PeerState::stopped;
+  Trajectory trajectory;       ///< world, absolute time
+};
+
+}  // namespace spf

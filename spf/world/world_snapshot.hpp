@@ -1,0 +1,21 @@
+// What one robot believes about its surroundings at one instant; the planner's only view of the world.
+#pragma once
+
+#include <vector>
+
+#include "spf/world/obstacle_track.hpp"
+#include "spf/world/occupancy_map.hpp"
+#include "spf/world/peer.hpp"
+
+namespace spf {
+
+/// A view: the agent owns what it points to and keeps it unchanged while a plan is made.
+struct WorldSnapshot {
+  double time = 0.0;                          ///< [s]
+  int robot_id = 0;                           ///< the robot whose belief this is
+  const OccupancyMap* map = nullptr;          ///< never null when planning
+  const std::vector<ObstacleTrack>* tracks = nullptr;
+  const std::vector<Peer>* peers = nullptr;   ///< sorted by robot_id, without the robot itself
+};
+
+}  // namespace spf
