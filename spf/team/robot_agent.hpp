@@ -1,0 +1,106 @@
+// The whole robot behind one door: what it senses and hears goes in, wheel speeds and its broadcast come out. The
+// simulator and the ROS nodes are two hosts of it, so "simulated or real" is a choice of host and nothing else.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "spf/planning/planner.hpp"
+#include "spf/team/agent_parameters.hpp"
+#include "spf/world/observation.hpp"
+#include "spf/world/occupancy_map.hpp"
+#include "spf/world/trajectory_message.hpp"
+
+namespace spf {
+
+/// Why a robot stands still (or is about to); `none` while it moves as planned.
+enum class StandReason {
+  none,
+  no_goal,
+  arrived,
+  obstacle_ahead,   ///< waits for a moving obstacle (culprit = its id)
+  peer_ahead,       ///< waits for a teammate (culprit = its number)
+  no_path,          ///< the static map leaves no way to the goal
+  planner_failed,   ///< no safe plan within the budget; stands and tries again
+  stale_pose,       ///< no pose measurement for too long
+  stale_scan,       ///< no observation for too long
+  lost,             ///< too far from the plan
+  paused,           ///< told to
+};
+[[nodiscard]] const char* to_string(StandReason reason);
+
+/// What arrived since the last step; empty members mean "nothing new".
+struct AgentInput {
+  std::vector<PoseMeasurement> poses;
+  std::optional<Observation> observation;
+  std::vector<TrajectoryMessage> messages;
+};
+
+/// Where the robot thinks it is, and how sure it is of it.
+struct AgentEstimate {
+  Pose2 pose_world;
+  Eigen::Vector3d disturbance_world = Eigen::Vector3d::Zero();  ///< [m/s, m/s, rad/s] eq. 17
+  double position_sigma = 0.0;                                  ///< [m] per axis
+  bool valid = false;
+};
+
+struct AgentStatus {
+  PeerState state = PeerState::stopped;
+  StandReason reason = StandReason::no_goal;
+  int culprit = -1;  ///< id of the obstacle or peer behind the reason, -1 = none
+};
+
+struct AgentOutput {
+  bool planned = false;     ///< a plan was made in this step: see RobotAgent::last_plan()
+  bool controlled = false;  ///< `wheel_speeds` was renewed in this step
+  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] rim speeds, held until the next
+  std::optional<TrajectoryMessage> broadcast;
+};
+
+class RobotAgent {
+ public:
+  /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed). Throws
+  /// std::invalid_argument when parameters are out of range.
+  RobotAgent(int robot_id, const AgentParameters& parameters, const OccupancyMap& map, const Pose2& start,
+             double time);
+  ~RobotAgent();
+  RobotAgent(RobotAgent&&) noexcept;
+  RobotAgent& operator=(RobotAgent&&) noexcept;
+
+  void set_goal(const Eigen::Vector2d& goal_world, std::optional<double> goal_heading = std::nullopt);
+  void clear_goal();
+  void set_paused(bool paused);
+
+  /// The sequential form: receive, then plan and track where due. Call it at the rate of the pose measurements or
+  /// faster; plans and control ticks happen at their own rates (AgentParameters). Times must not go back.
+  AgentOutput step(double time, const AgentInput& input);
+
+  // The halves of step(), for hosts that time them or run them on threads of their own.
+  void receive(double time, const AgentInput& input);
+  [[nodiscard]] bool plan_due(double time) const;
+  [[nodiscard]] bool control_due(double time) const;
+  /// Plans and commits; returns the message to broadcast when there is one.
+  std::optional<TrajectoryMessage> plan(double time);
+  /// One control tick.
+  Eigen::Vector3d track(double time);
+
+  [[nodiscard]] int robot_id() const;
+  [[nodiscard]] const AgentParameters& parameters() const;
+  [[nodiscard]] const PlanResult& last_plan() const;
+  /// The trajectory under way (never empty: standing at the start before the first plan).
+  [[nodiscard]] const Trajectory& committed() const;
+  [[nodiscard]] AgentEstimate estimate() const;
+  [[nodiscard]] AgentStatus status() const;
+  [[nodiscard]] const OccupancyMap& map() const;
+  [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const;
+  [[nodiscard]] const std::vector<Peer>& peers() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace spf
