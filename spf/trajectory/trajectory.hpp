@@ -33,7 +33,7 @@ struct QuinticPiece {
 /// velocity in both: a plan that is not renewed in time means "stand".
 class Trajectory {
  public:
-  static constexpr int kMaxPieces = 16;
+  static constexpr int kMaxPieces = 32;
 
   Trajectory() = default;
   explicit Trajectory(double start_time) : start_time_{start_time} {}
@@ -59,7 +59,8 @@ class Trajectory {
   [[nodiscard]] double duration() const { return duration_; }      ///< [s]
   [[nodiscard]] double end_time() const { return start_time_ + duration_; }
 
-  /// Position, velocity, acceleration at an absolute time. Requires !empty().
+  /// Position, velocity, acceleration at an absolute time; the start and the end still belong to the motion.
+  /// Requires !empty().
   [[nodiscard]] FlatState state(double time) const;
   [[nodiscard]] Eigen::Vector2d position(double time) const;
   [[nodiscard]] Eigen::Vector2d tail_position() const;
@@ -70,6 +71,12 @@ class Trajectory {
   [[nodiscard]] double length() const;
 
  private:
+  struct LocalTime {
+    int index;          // of the piece
+    double local_time;  // [s] clamped to the motion
+  };
+  [[nodiscard]] LocalTime locate(double time) const;
+
   std::array<QuinticPiece, kMaxPieces> pieces_;
   int piece_count_ = 0;
   double start_time_ = 0.0;
