@@ -1,5 +1,6 @@
-// Heading over time, the third flat output: planned apart from the position, since an omnidirectional robot turns
-// independently of its motion up to the wheel limits (which the planner checks jointly before it commits).
+// Heading over time, the third flat output: planned apart from the position, since an omnidirectional robot
+// turns independently of its motion up to the wheel limits (which the planner checks jointly before it
+// commits).
 #pragma once
 
 #include "spf/math/angles.hpp"
@@ -11,20 +12,25 @@ struct HeadingState {
   double yaw_rate = 0.0;  ///< [rad/s]
 };
 
-/// Turns from an initial heading and yaw rate to a target heading by the shorter way, at rest there, under limits of
-/// yaw rate and yaw acceleration (a trapezoid of the rate), and holds it. Closed form; queries never allocate.
+/// Turns from an initial heading and yaw rate to a target heading, at rest there, under limits of yaw rate
+/// and yaw acceleration (a trapezoid of the rate), and holds it. It turns the way that takes less time: the
+/// shorter one from rest, and not against a spin that is already under way unless that pays. Before its start
+/// it stands at the initial heading. Closed form; queries never allocate.
 class HeadingProfile {
  public:
   /// Holds heading 0.
   HeadingProfile() = default;
   /// Holds a heading.
-  explicit HeadingProfile(double heading) : initial_heading_{wrap_angle(heading)} {}
-  /// Limits must be positive; start_time [s] is when the turn begins.
+  explicit HeadingProfile(double heading)
+      : initial_heading_{wrap_angle(heading)}, target_heading_{initial_heading_} {}
+  /// Limits must be positive; start_time [s] is when the turn begins. An initial rate beyond the limit is
+  /// first brought back to it.
   HeadingProfile(double start_time, const HeadingState& initial, double target_heading, double max_yaw_rate,
                  double max_yaw_acceleration);
 
   [[nodiscard]] HeadingState state(double time) const;
   [[nodiscard]] double start_time() const { return start_time_; }
+  [[nodiscard]] double target_heading() const { return target_heading_; }  ///< [rad] (-pi, pi]
   /// [s] from start_time until the target heading is held.
   [[nodiscard]] double turn_duration() const;
   void shift(double by) { start_time_ += by; }
@@ -32,7 +38,9 @@ class HeadingProfile {
  private:
   double start_time_ = 0.0;
   double initial_heading_ = 0.0;
-  // Three phases of constant yaw acceleration: from the initial rate to the cruise rate, cruise, down to rest.
+  double target_heading_ = 0.0;
+  // Three phases of constant yaw acceleration: from the initial rate to the cruise rate, cruise, down to
+  // rest.
   double initial_rate_ = 0.0;
   double cruise_rate_ = 0.0;
   double ramp_in_ = 0.0;   // [s]

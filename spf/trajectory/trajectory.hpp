@@ -1,5 +1,6 @@
-// A planned motion: quintic position pieces over absolute time, and the heading beside them (Section "Trajectory
-// representation", eq. 5-6). Fixed capacity, so that copying and evaluating never allocate. Frame: world.
+// A planned motion: quintic position pieces over absolute time, and the heading beside them (Section
+// "Trajectory representation", eq. 5-6). Fixed capacity, so that copying and evaluating never allocate.
+// Frame: world.
 #pragma once
 
 #include <Eigen/Core>
