@@ -1,6 +1,10 @@
 # spf_room(NAME DEPENDS other rooms and libraries...)
 # One room of the house = one static library spf_NAME (alias spf::NAME) from the folder's *.cpp, and one
 # test program spf_NAME_tests from its *_test.cpp. TEST_DEPENDS are for the tests alone.
+# Every test carries the room's name as label, and by the name of its suite two more: `slow` for ...Slow (left out under
+# sanitizers) and `threads` for ...Threads (run under the thread sanitizer, built there by target spf_threads_tests).
+add_custom_target(spf_threads_tests)
+
 function(spf_room NAME)
   cmake_parse_arguments(ROOM "" "STANDARD" "DEPENDS;TEST_DEPENDS" ${ARGN})
   if(NOT ROOM_STANDARD)
@@ -26,6 +30,9 @@ function(spf_room NAME)
   target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} ${scope} ${ROOM_DEPENDS})
+  if(CMAKE_CURRENT_SOURCE_DIR STREQUAL "${PROJECT_SOURCE_DIR}/spf/${NAME}" AND NOT NAME STREQUAL "testing")
+    set_property(GLOBAL APPEND PROPERTY SPF_CORE_TARGETS ${target})
+  endif()
 
   if(SPF_BUILD_TESTS AND tests)
     add_executable(${target}_tests ${tests})
@@ -34,7 +41,28 @@ function(spf_room NAME)
     target_link_libraries(${target}_tests PRIVATE ${target} ${ROOM_TEST_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
     target_compile_definitions(${target}_tests PRIVATE SPF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(${target}_tests DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${NAME} TIMEOUT 900)
+    spf_label_by_suite(${NAME} ${target}_tests)
+    foreach(test IN LISTS tests)
+      file(STRINGS ${test} threads REGEX "^(TYPED_)?TEST(_F|_P)?\\([A-Za-z0-9]*Threads,")
+      if(threads)
+        add_dependencies(spf_threads_tests ${target}_tests)
+      endif()
+    endforeach()
   endif()
+endfunction()
+
+# Suites ...Slow and ...Threads get a second label, when ctest has read the list of the room's tests.
+function(spf_label_by_suite NAME TEST_TARGET)
+  set(file ${CMAKE_CURRENT_BINARY_DIR}/${TEST_TARGET}_labels.cmake)
+  file(CONFIGURE OUTPUT ${file} @ONLY CONTENT [[
+foreach(test IN LISTS @TEST_TARGET@_TESTS)
+  if(test MATCHES "(Slow|Threads)(/[0-9]+)?\\.")
+    string(TOLOWER "${CMAKE_MATCH_1}" label)
+    set_tests_properties("${test}" PROPERTIES LABELS "@NAME@;${label}")
+  endif()
+endforeach()
+]])
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${file})
 endfunction()
 
 # Warnings, repeatable floating point (no contraction to FMA), sanitizers.

@@ -1,0 +1,22 @@
+# Tests of the project itself: its form, its architecture, and the installed package seen from outside. Once is enough, so
+# not in the sanitizer builds.
+if(NOT PROJECT_IS_TOP_LEVEL OR SPF_SANITIZE)
+  return()
+endif()
+
+# Exit status 77 means that a tool is not installed; `script/test` installs them all.
+function(spf_project_test NAME)
+  add_test(NAME ${NAME} COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(${NAME} PROPERTIES LABELS project TIMEOUT 900 SKIP_RETURN_CODE 77)
+endfunction()
+
+spf_project_test(check_format ${PROJECT_SOURCE_DIR}/script/check_format)
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  spf_project_test(check_architecture ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_architecture.py)
+  spf_project_test(check_architecture_catches ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_architecture_test.py)
+  spf_project_test(check_paper_notes_catches ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_paper_notes_test.py)
+endif()
+spf_project_test(install_example ${CMAKE_COMMAND}
+  -D BUILD_DIR=${PROJECT_BINARY_DIR} -D CONFIG=$<CONFIG> -D EXAMPLE_DIR=${PROJECT_SOURCE_DIR}/examples/minimal
+  -D CXX_COMPILER=${CMAKE_CXX_COMPILER} -P ${CMAKE_CURRENT_LIST_DIR}/InstallExample.cmake)

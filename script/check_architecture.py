@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+"""check_architecture.py [ROOT] : do the rooms keep to the house rules of docs/architecture.md?
+
+Arrows: an #include from the repository's root must be covered by the DEPENDS of the file's room, directly or through
+other rooms (in tests by TEST_DEPENDS too); rooms form no circle; a core room uses core rooms and Eigen alone.
+Purity: the sources of spf/ (tests and spf/testing apart) hold no file, stream, clock, thread, outside randomness,
+changeable static or global, and no ROS.
+Prints FILE:LINE: sentence for each breach; exit status 1 if there is one.
+"""
+import re
+import sys
+from pathlib import Path
+
+CORE = "spf"
+SKIPPED_FOLDERS = {"build", "node_modules", ".git", "results"}
+SOURCE_SUFFIXES = {".cpp", ".hpp"}
+
+FORBIDDEN_HEADERS = {
+    "fstream": "files belong to hosts", "iostream": "printing belongs to hosts", "ostream": "printing belongs to hosts",
+    "cstdio": "files belong to hosts", "filesystem": "files belong to hosts",
+    "chrono": "time is an argument", "ctime": "time is an argument",
+    "thread": "core objects are single-threaded", "mutex": "core objects are single-threaded",
+    "shared_mutex": "core objects are single-threaded", "atomic": "core objects are single-threaded",
+    "condition_variable": "core objects are single-threaded", "future": "core objects are single-threaded",
+    "random": "chance is a RandomStream argument",
+}
+FORBIDDEN_WORDS = [
+    (re.compile(r"\b(system_clock|steady_clock|high_resolution_clock|clock_gettime|gettimeofday)\b"), "reads a clock"),
+    (re.compile(r"\bstd::(cout|cerr|clog|cin)\b|(?<![\w.>])(printf|puts|fopen)\s*\("), "prints or opens a file"),
+    (re.compile(r"\brandom_device\b|(?<![\w.>])s?rand\s*\("), "draws randomness that no seed repeats"),
+    (re.compile(r"(?<![\w.>])getenv\s*\("), "reads the environment"),
+    (re.compile(r"\bthread_local\b"), "keeps hidden state"),
+]
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]', re.MULTILINE)
+ROOM_CALL = re.compile(r"\bspf_room\s*\(([^)]*)\)")
+ROOM_KEYWORDS = {"STANDARD", "DEPENDS", "TEST_DEPENDS"}
+# `static` up to the point where the declaration shows what it is: a function has its parenthesis first.
+STATIC = re.compile(r"\bstatic\b(?P<declaration>[^;={}()]*)(?P<end>[;={(])")
+# A variable at namespace scope; declarations there start in the first column (clang-format keeps it so).
+GLOBAL = re.compile(r"^(?P<declaration>(?:inline\s+)?[A-Za-z_][\w:]*(?:<[^;={}()]*>)?[\s*&]+\w+)\s*(?:=(?!=)|\{|;)", re.MULTILINE)
+NOT_A_VARIABLE = re.compile(
+    r"\b(const|constexpr|constinit|using|namespace|struct|class|union|enum|extern|friend|typedef|template|return|static|"
+    r"concept|goto|case)\b")
+
+
+class Room:
+    """One spf_room: its folder, and the rooms that it may use."""
+
+    def __init__(self, name, folder, depends, test_depends):
+        self.name, self.folder, self.depends, self.test_depends = name, folder, depends, test_depends
+
+    @property
+    def is_core(self):
+        return self.folder.parts[0] == CORE
+
+    @property
+    def is_pure(self):
+        return self.is_core and self.name != "testing"
+
+
+def project_files(root):
+    for path in sorted(root.rglob("*")):
+        relative = path.relative_to(root)
+        if path.is_file() and not SKIPPED_FOLDERS & set(relative.parts):
+            yield relative
+
+
+def read_rooms(root, files):
+    rooms = {}
+    for file in files:
+        if file.name != "CMakeLists.txt" or file == Path("CMakeLists.txt"):
+            continue
+        text = re.sub(r"#.*", "", (root / file).read_text(encoding="utf-8"))
+        for call in ROOM_CALL.finditer(text):
+            name, *words = call.group(1).split()
+            lists, current = {keyword: [] for keyword in ROOM_KEYWORDS}, None
+            for word in words:
+                if word in ROOM_KEYWORDS:
+                    current = word
+                elif current:
+                    lists[current].append(word)
+            rooms[name] = Room(name, file.parent, lists["DEPENDS"], lists["TEST_DEPENDS"])
+    return rooms
+
+
+def room_names(targets):
+    """spf::field and spf_field both mean the room `field`; other words are libraries."""
+    return [match.group(1) for match in (re.fullmatch(r"spf(?:::|_)(\w+)", target) for target in targets) if match]
+
+
+def reachable(rooms, name, with_tests):
+    """The rooms that `name` may include, itself among them."""
+    found, waiting = set(), [name]
+    while waiting:
+        current = waiting.pop()
+        if current in found or current not in rooms:
+            continue
+        found.add(current)
+        waiting += room_names(rooms[current].depends)
+        if with_tests and current == name:
+            waiting += room_names(rooms[current].test_depends)
+    return found
+
+
+def without_comments_and_strings(text):
+    """The same text with both blanked out, so that places stay where they were; include lines keep their names."""
+    token = re.compile(
+        r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^()\\\s]{0,16})\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'',
+        re.DOTALL)
+    include_names = {match.start(1) for match in INCLUDE.finditer(text)}
+
+    def blank(match):
+        if match.start() in include_names:
+            return match.group()
+        # 1'000'000 is a number, not a character.
+        if match.group()[0] == "'" and match.start() and text[match.start() - 1].isalnum():
+            return match.group()
+        return re.sub(r"[^\n]", " ", match.group())
+
+    return token.sub(blank, text)
+
+
+def line_of(text, position):
+    return text.count("\n", 0, position) + 1
+
+
+def check_rooms(rooms):
+    for room in rooms.values():
+        where = room.folder / "CMakeLists.txt"
+        for used in room_names(room.depends):
+            if used not in rooms:
+                yield f"{where}:1: room {room.name} uses {used}, which is no room"
+            elif room.name in reachable(rooms, used, with_tests=False):
+                yield f"{where}:1: room {room.name} uses {used}, and {used} uses {room.name}: a circle"
+            elif used == "testing":
+                yield f"{where}:1: room {room.name} uses testing, which is for TEST_DEPENDS alone"
+            elif room.is_core and not rooms[used].is_core:
+                yield f"{where}:1: core room {room.name} uses {used}, which is no core room"
+        if room.is_core:
+            for library in room.depends:
+                if not room_names([library]) and library != "Eigen3::Eigen":
+                    yield f"{where}:1: core room {room.name} uses {library}; the core uses Eigen alone"
+
+
+def owner_of(rooms, file):
+    owners = [room for room in rooms.values() if room.folder in file.parents]
+    return max(owners, key=lambda room: len(room.folder.parts), default=None)
+
+
+def check_includes(rooms, room, file, code):
+    is_test = file.name.endswith("_test.cpp")
+    allowed = reachable(rooms, room.name, with_tests=is_test)
+    tops = {other.folder.parts[0] for other in rooms.values()}
+    for include in INCLUDE.finditer(code):
+        where, quote, header = f"{file}:{line_of(code, include.start())}", include.group(1), include.group(2)
+        if header.split("/")[0] in tops:
+            target = owner_of(rooms, Path(header))
+            if target is None:
+                yield f"{where}: includes {header}, which lies in no room"
+            elif target.name not in allowed:
+                yield f"{where}: room {room.name} includes {header}, but does not depend on {target.name}"
+            elif quote == "<":
+                yield f"{where}: includes <{header}>; the project's own headers stand in quotation marks"
+        elif quote == '"':
+            yield f'{where}: includes "{header}", which is not written from the root of the repository'
+        elif room.is_pure and not is_test:
+            yield from check_foreign_header(where, header)
+
+
+def check_foreign_header(where, header):
+    if header in FORBIDDEN_HEADERS:
+        yield f"{where}: includes <{header}> in the core: {FORBIDDEN_HEADERS[header]}"
+    elif not header.startswith("Eigen/") and not re.fullmatch(r"[a-z_]+", header):
+        yield f"{where}: includes <{header}> in the core, which uses Eigen and the standard library alone"
+
+
+def check_purity(file, code):
+    for pattern, breach in FORBIDDEN_WORDS:
+        for match in pattern.finditer(code):
+            yield f"{file}:{line_of(code, match.start())}: the core {breach} ({match.group().strip()})"
+    for match in STATIC.finditer(code):
+        if match.group("end") != "(" and not re.search(r"\bconst(expr|init)?\b", match.group("declaration")):
+            yield f"{file}:{line_of(code, match.start())}: a changeable static variable in the core"
+    for match in GLOBAL.finditer(code):
+        if not NOT_A_VARIABLE.search(match.group("declaration")):
+            yield f"{file}:{line_of(code, match.start())}: a changeable global variable in the core"
+
+
+def check(root):
+    """Every breach below `root`, as one sentence each."""
+    files = list(project_files(root))
+    rooms = read_rooms(root, files)
+    if not rooms:
+        return ["CMakeLists.txt:1: found no rooms"]
+    breaches = list(check_rooms(rooms))
+    for file in files:
+        room = owner_of(rooms, file)
+        if room is None or file.suffix not in SOURCE_SUFFIXES:
+            continue
+        code = without_comments_and_strings((root / file).read_text(encoding="utf-8"))
+        breaches += check_includes(rooms, room, file, code)
+        if room.is_pure and not file.name.endswith("_test.cpp"):
+            breaches += check_purity(file, code)
+        if file.suffix == ".hpp" and "#pragma once" not in code:
+            breaches.append(f"{file}:1: a header without #pragma once")
+    return breaches
+
+
+def main(arguments):
+    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
+    breaches = check(root)
+    print("\n".join(breaches) if breaches else "architecture: all rooms keep to their arrows")
+    return 1 if breaches else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
