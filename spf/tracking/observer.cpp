@@ -1,0 +1,145 @@
+#include "spf/tracking/observer.hpp"
+
+#include <cmath>
+
+#include "spf/math/angles.hpp"
+
+namespace spf {
+namespace {
+
+constexpr std::size_t kHeading = 2;
+// Deviation of the unknown disturbance at the start [m/s], [rad/s]: a few centimetres a second of slip.
+constexpr double kInitialDisturbanceSigma = 0.05;
+// Outliers that do not even agree with each other are believed after this many times readmit_count: then the
+// declared noise is wrong, and a bad measurement is better than none for ever.
+constexpr int kPatience = 4;
+
+}  // namespace
+
+PoseObserver::PoseObserver(const ObserverParameters& parameters) : parameters_{validated(parameters)} {
+  const AxisNoise position{parameters_.pose_sigma, parameters_.velocity_noise, parameters_.drift_noise};
+  noise_ = {position, position,
+            AxisNoise{parameters_.heading_sigma, parameters_.heading_velocity_noise,
+                      parameters_.heading_drift_noise}};
+}
+
+void PoseObserver::reset() {
+  started_ = false;
+  since_measurement_ = 0.0;
+  agreeing_outliers_ = 0;
+  outliers_in_a_row_ = 0;
+}
+
+void PoseObserver::start(const Triple& measured) {
+  for (std::size_t i = 0; i < 3; ++i)
+    axes_[i].start(measured[i], noise_[i].measurement * noise_[i].measurement, kInitialDisturbanceSigma);
+  started_ = true;
+}
+
+void PoseObserver::predict(double dt, const Eigen::Vector3d& applied_twist_world) {
+  if (!started_ || !(dt > 0.0) || !std::isfinite(dt)) return;
+  since_measurement_ += dt;
+  if (parameters_.kind == ObserverKind::none) return;
+  const bool usable = applied_twist_world.allFinite();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double velocity = usable ? applied_twist_world[static_cast<Eigen::Index>(i)] : 0.0;
+    axes_[i].predict(dt, velocity, noise_[i]);
+    outlier_mean_[i] += dt * (velocity + axes_[i].disturbance());
+  }
+  axes_[kHeading].set_value(wrap_angle(axes_[kHeading].value()));
+}
+
+MeasurementOutcome PoseObserver::correct(const Pose2& measured_world) {
+  if (!measured_world.position_world.allFinite() || !std::isfinite(measured_world.heading))
+    return MeasurementOutcome::invalid;
+  const Triple measured{measured_world.position_world.x(), measured_world.position_world.y(),
+                        wrap_angle(measured_world.heading)};
+  if (!started_ || parameters_.kind == ObserverKind::none) {
+    start(measured);
+    since_measurement_ = 0.0;
+    return MeasurementOutcome::used;
+  }
+  const Triple difference =
+      innovation(measured, {axes_[0].value(), axes_[1].value(), axes_[kHeading].value()});
+  if (!within_gate(difference, {axes_[0].variance(), axes_[1].variance(), axes_[kHeading].variance()}))
+    return reject(measured);
+  apply(difference);
+  for (std::size_t i = 0; i < 3; ++i) {
+    // The exact measurement itself, not a rounding beside it.
+    if (parameters_.kind == ObserverKind::kalman && noise_[i].measurement == 0.0)
+      axes_[i].set_value(measured[i]);
+  }
+  return MeasurementOutcome::used;
+}
+
+PoseObserver::Triple PoseObserver::innovation(const Triple& measured, const Triple& from) const {
+  return {measured[0] - from[0], measured[1] - from[1], angle_difference(measured[2], from[2])};
+}
+
+bool PoseObserver::within_gate(const Triple& innovation, const Triple& variance) const {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double sigma = std::sqrt(variance[i] + noise_[i].measurement * noise_[i].measurement);
+    if (!(std::abs(innovation[i]) <= parameters_.gate * sigma + parameters_.gate_floor)) return false;
+  }
+  return true;
+}
+
+void PoseObserver::apply(const Triple& innovation) {
+  const bool fixed_poles = parameters_.kind == ObserverKind::eso;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double bandwidth = i == kHeading ? parameters_.heading_bandwidth : parameters_.bandwidth;
+    const AxisGain gain =
+        fixed_poles ? eso_gain(bandwidth, since_measurement_) : axes_[i].kalman_gain(noise_[i].measurement);
+    axes_[i].correct(innovation[i], gain, noise_[i].measurement);
+    axes_[i].limit_disturbance(parameters_.max_disturbance);
+  }
+  axes_[kHeading].set_value(wrap_angle(axes_[kHeading].value()));
+  since_measurement_ = 0.0;
+  agreeing_outliers_ = 0;
+  outliers_in_a_row_ = 0;
+}
+
+MeasurementOutcome PoseObserver::reject(const Triple& measured) {
+  ++outliers_in_a_row_;
+  // A mean of n and one more measurement differ with variance (1 + 1/n) of a measurement.
+  const Triple difference = innovation(measured, outlier_mean_);
+  Triple mean_variance{};
+  for (std::size_t i = 0; i < 3 && agreeing_outliers_ > 0; ++i)
+    mean_variance[i] = noise_[i].measurement * noise_[i].measurement / agreeing_outliers_;
+  if (agreeing_outliers_ > 0 && within_gate(difference, mean_variance)) {
+    ++agreeing_outliers_;
+    for (std::size_t i = 0; i < 3; ++i) outlier_mean_[i] += difference[i] / agreeing_outliers_;
+  } else {
+    agreeing_outliers_ = 1;
+    outlier_mean_ = measured;
+  }
+  if (agreeing_outliers_ < parameters_.readmit_count &&
+      outliers_in_a_row_ < kPatience * parameters_.readmit_count)
+    return MeasurementOutcome::rejected;
+
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double variance = noise_[i].measurement * noise_[i].measurement;
+    // An exact sensor is believed to the last measurement, a noisy one to the mean of those that agree.
+    axes_[i].restart(variance > 0.0 ? outlier_mean_[i] : measured[i], variance / agreeing_outliers_);
+  }
+  axes_[kHeading].set_value(wrap_angle(axes_[kHeading].value()));
+  since_measurement_ = 0.0;
+  agreeing_outliers_ = 0;
+  outliers_in_a_row_ = 0;
+  return MeasurementOutcome::readmitted;
+}
+
+StateEstimate PoseObserver::estimate() const {
+  StateEstimate estimate;
+  estimate.valid = started_;
+  if (!started_) return estimate;
+  estimate.pose_world = Pose2{{axes_[0].value(), axes_[1].value()}, axes_[kHeading].value()};
+  for (std::size_t i = 0; i < 3; ++i)
+    estimate.disturbance_world[static_cast<Eigen::Index>(i)] = axes_[i].disturbance();
+  estimate.position_variance = 0.5 * (axes_[0].variance() + axes_[1].variance());
+  estimate.heading_variance = axes_[kHeading].variance();
+  estimate.age = since_measurement_;
+  return estimate;
+}
+
+}  // namespace spf

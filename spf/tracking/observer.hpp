@@ -1,0 +1,70 @@
+// The pose observer (eq. 17): where the robot is and what pushes it, from measured poses and the motion that
+// was commanded. Run it at the rate of the measurements and feed it the command really applied, after
+// saturation. With exact measurements (sigma 0) the default observer reports the measurement itself. Frame:
+// world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+
+#include "spf/math/pose2.hpp"
+#include "spf/tracking/axis_filter.hpp"
+#include "spf/tracking/observer_parameters.hpp"
+
+namespace spf {
+
+struct StateEstimate {
+  bool valid = false;  ///< false until the first measurement
+  Pose2 pose_world;
+  Eigen::Vector3d disturbance_world =
+      Eigen::Vector3d::Zero();     ///< [m/s, m/s, rad/s] motion beyond the command
+  double position_variance = 0.0;  ///< [m^2] per axis, as the noise levels imply
+  double heading_variance = 0.0;   ///< [rad^2]
+  double age = 0.0;                ///< [s] predicted since a measurement was used
+};
+
+enum class MeasurementOutcome {
+  used,
+  rejected,    ///< an outlier
+  readmitted,  ///< outliers that agree with each other: the estimate has jumped to them
+  invalid,     ///< not a number, ignored
+};
+
+class PoseObserver {
+ public:
+  /// Throws std::invalid_argument on parameters out of range.
+  explicit PoseObserver(const ObserverParameters& parameters);
+
+  /// Advances by dt >= 0 [s] with the motion applied meanwhile. Bridges gaps of any length; before the first
+  /// measurement there is nothing to advance. Input that is not finite counts as standing still.
+  void predict(double dt, const Eigen::Vector3d& applied_twist_world);
+  /// Takes in a pose measured now.
+  MeasurementOutcome correct(const Pose2& measured_world);
+  /// Forgets everything.
+  void reset();
+
+  [[nodiscard]] StateEstimate estimate() const;
+  [[nodiscard]] const ObserverParameters& parameters() const { return parameters_; }
+
+ private:
+  using Triple = std::array<double, 3>;  // x, y, heading
+
+  void start(const Triple& measured);
+  [[nodiscard]] Triple innovation(const Triple& measured, const Triple& from) const;
+  [[nodiscard]] bool within_gate(const Triple& innovation, const Triple& variance) const;
+  void apply(const Triple& innovation);
+  MeasurementOutcome reject(const Triple& measured);
+
+  ObserverParameters parameters_;
+  std::array<AxisNoise, 3> noise_;
+  std::array<AxisFilter, 3> axes_;
+  bool started_ = false;
+  double since_measurement_ = 0.0;  // [s]
+  // Outliers in a row: their mean, carried along with the commanded motion, while they agree.
+  Triple outlier_mean_{};
+  int agreeing_outliers_ = 0;
+  int outliers_in_a_row_ = 0;
+};
+
+}  // namespace spf

@@ -1,0 +1,69 @@
+// Parameters of the pose observer (eq. 17 and the filter that shares its model).
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "spf/math/parameters.hpp"
+
+namespace spf {
+
+enum class ObserverKind {
+  none,    ///< the last measurement as it came (the ablation "without observer")
+  eso,     ///< extended state observer with fixed poles (eq. 17)
+  kalman,  ///< the same two-state model, gains from the noise levels
+};
+
+template <>
+struct EnumNames<ObserverKind> {
+  static constexpr std::array<std::pair<ObserverKind, const char*>, 3> values{
+      {{ObserverKind::none, "none"}, {ObserverKind::eso, "eso"}, {ObserverKind::kalman, "kalman"}}};
+};
+
+struct ObserverParameters {
+  ObserverKind kind = ObserverKind::kalman;
+  double bandwidth = 0.5;                ///< [rad/s] eso: w of x and y, l1 = 2 w = 1, l2 = w^2 = 0.25 (paper)
+  double heading_bandwidth = 0.5;        ///< [rad/s] eso: w of the heading (paper: the same)
+  double pose_sigma = 0.0;               ///< [m] of a measurement, per axis; 0 = exact
+  double heading_sigma = 0.0;            ///< [rad] of a measurement; 0 = exact
+  double velocity_noise = 0.05;          ///< [m/sqrt(s)] slip, white in the velocity
+  double drift_noise = 0.02;             ///< [m/s/sqrt(s)] random walk of the disturbance velocity
+  double heading_velocity_noise = 0.02;  ///< [rad/sqrt(s)]
+  double heading_drift_noise = 0.02;     ///< [rad/s/sqrt(s)]
+  double max_disturbance = 0.5;          ///< [m/s] and [rad/s], bound of the estimated disturbance
+  double gate = 6.0;        ///< [1] innovations beyond this many sigma (plus the floor) are outliers
+  double gate_floor = 0.1;  ///< [m] and [rad]
+  int readmit_count = 5;    ///< [1] outliers in a row that agree with each other are believed
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("kind", self.kind,
+          "none | eso (eq. 17) | kalman (same model, gains from the noise levels; our default)");
+    visit("bandwidth", self.bandwidth, "rad/s", Range{1e-3, 100.0},
+          "eso: w of x and y; l1 = 2 w, l2 = w^2 (paper: 0.5)");
+    visit("heading_bandwidth", self.heading_bandwidth, "rad/s", Range{1e-3, 100.0},
+          "eso: w of the heading (paper: 0.5)");
+    visit("pose_sigma", self.pose_sigma, "m", Range{0.0, 100.0},
+          "standard deviation of a measured x or y; 0 = exact");
+    visit("heading_sigma", self.heading_sigma, "rad", Range{0.0, 3.0},
+          "standard deviation of a measured heading; 0 = exact");
+    visit("velocity_noise", self.velocity_noise, "m/sqrt(s)", Range{0.0, 10.0},
+          "white noise of the velocity (slip); our choice");
+    visit("drift_noise", self.drift_noise, "m/s/sqrt(s)", Range{0.0, 10.0},
+          "random walk of the disturbance velocity; our choice");
+    visit("heading_velocity_noise", self.heading_velocity_noise, "rad/sqrt(s)", Range{0.0, 10.0},
+          "white noise of the yaw rate; our choice");
+    visit("heading_drift_noise", self.heading_drift_noise, "rad/s/sqrt(s)", Range{0.0, 10.0},
+          "random walk of the yaw disturbance; our choice");
+    visit("max_disturbance", self.max_disturbance, "m/s", Range{0.0, 100.0},
+          "bound of the estimated disturbance velocity (and yaw rate in rad/s)");
+    visit("gate", self.gate, "1", Range{1.0, 100.0},
+          "standard deviations beyond which a measurement is an outlier");
+    visit("gate_floor", self.gate_floor, "m", Range{0.0, 100.0},
+          "added to the gate, for x, y (and heading in rad)");
+    visit("readmit_count", self.readmit_count, "1", Range{1, 1000},
+          "consistent outliers in a row that are believed");
+  }
+};
+
+}  // namespace spf
