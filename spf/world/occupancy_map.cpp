@@ -1,0 +1,220 @@
+#include "spf/world/occupancy_map.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace spf {
+namespace {
+
+/// Distance to an axis-aligned box, negative inside [m].
+double box_distance(const Eigen::Vector2d& position, const Eigen::Vector2d& low,
+                    const Eigen::Vector2d& high) {
+  const Eigen::Array2d outward = (low - position).array().max((position - high).array());
+  const double outside = outward.max(0.0).matrix().norm();
+  return outside > 0.0 ? outside : outward.maxCoeff();
+}
+
+void check_rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const char* what) {
+  if (low.allFinite() && high.allFinite() && (high.array() > low.array()).all()) return;
+  throw std::invalid_argument(std::string{what} + ": needs finite corners with low < high");
+}
+
+}  // namespace
+
+/// The four nodes around a place, and where it stands between them.
+struct OccupancyMap::Patch {
+  double value[2][2];       // [along x][along y]
+  double x, y;              // place between the nodes, in [0, 1]
+  bool inside_x, inside_y;  // false: the place is held at the grid's edge
+
+  [[nodiscard]] double interpolated() const {
+    const double low_y = value[0][0] + x * (value[1][0] - value[0][0]);
+    const double high_y = value[0][1] + x * (value[1][1] - value[0][1]);
+    return low_y + y * (high_y - low_y);
+  }
+  /// Per cell.
+  [[nodiscard]] Eigen::Vector2d slope() const {
+    const double low_y = value[1][0] - value[0][0];
+    const double high_y = value[1][1] - value[0][1];
+    const double low_x = value[0][1] - value[0][0];
+    const double high_x = value[1][1] - value[1][0];
+    return {inside_x ? low_y + y * (high_y - low_y) : 0.0, inside_y ? low_x + x * (high_x - low_x) : 0.0};
+  }
+};
+
+OccupancyMap::OccupancyMap(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters)
+    : frame_{frame}, max_distance_{max_distance}, parameters_{validated(parameters)} {
+  check_frame(frame);
+  if (!(std::isfinite(max_distance) && max_distance > 0.0)) {
+    throw std::invalid_argument("occupancy map: max_distance must be positive and finite");
+  }
+}
+
+template <class SignedDistance>
+void OccupancyMap::add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,
+                             const SignedDistance& signed_distance) {
+  // Copy on write: nobody else sees the layer while only this map holds it.
+  std::shared_ptr<std::vector<float>> layer;
+  if (!known_) {
+    const std::size_t nodes =
+        static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height);
+    layer = std::make_shared<std::vector<float>>(nodes, static_cast<float>(max_distance_));
+  } else if (known_.use_count() == 1) {
+    layer = std::const_pointer_cast<std::vector<float>>(known_);  // created non-const, right here
+  } else {
+    layer = std::make_shared<std::vector<float>>(*known_);
+  }
+  for (int j = low.y(); j <= high.y(); ++j) {
+    float* row = layer->data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(frame_.width);
+    for (int i = low.x(); i <= high.x(); ++i) {
+      row[i] = std::min(row[i], static_cast<float>(signed_distance(frame_.node_position(i, j))));
+    }
+  }
+  known_ = std::move(layer);
+  ++revision_;
+}
+
+void OccupancyMap::add_box(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  check_rectangle(low, high, "box");
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(max_distance_ + frame_.resolution);
+  add_shape(nearest_node(low - reach), nearest_node(high + reach),
+            [&](const Eigen::Vector2d& node) { return box_distance(node, low, high); });
+}
+
+void OccupancyMap::add_disc(const Eigen::Vector2d& centre, double radius) {
+  if (!(centre.allFinite() && std::isfinite(radius) && radius >= 0.0)) {
+    throw std::invalid_argument("disc: needs a finite centre and a radius >= 0");
+  }
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(radius + max_distance_ + frame_.resolution);
+  add_shape(nearest_node(centre - reach), nearest_node(centre + reach),
+            [&](const Eigen::Vector2d& node) { return (node - centre).norm() - radius; });
+}
+
+void OccupancyMap::add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  check_rectangle(low, high, "border");
+  add_shape({0, 0}, {frame_.width - 1, frame_.height - 1},
+            [&](const Eigen::Vector2d& node) { return -box_distance(node, low, high); });
+}
+
+template <class NodeValue>
+OccupancyMap::Patch OccupancyMap::patch_of(const Eigen::Vector2d& position_world,
+                                           const NodeValue& node_value) const {
+  const double u = (position_world.x() - frame_.origin_world.x()) / frame_.resolution;
+  const double v = (position_world.y() - frame_.origin_world.y()) / frame_.resolution;
+  const double last_u = frame_.width - 1;
+  const double last_v = frame_.height - 1;
+  Patch patch;
+  patch.inside_x = u > 0.0 && u < last_u;
+  patch.inside_y = v > 0.0 && v < last_v;
+  const double held_u = patch.inside_x ? u : (u >= last_u ? last_u : 0.0);
+  const double held_v = patch.inside_y ? v : (v >= last_v ? last_v : 0.0);
+  const int i = std::max(std::min(static_cast<int>(held_u), frame_.width - 2), 0);
+  const int j = std::max(std::min(static_cast<int>(held_v), frame_.height - 2), 0);
+  const int next_i = std::min(i + 1, frame_.width - 1);
+  const int next_j = std::min(j + 1, frame_.height - 1);
+  patch.x = held_u - i;
+  patch.y = held_v - j;
+  patch.value[0][0] = node_value(i, j);
+  patch.value[1][0] = node_value(next_i, j);
+  patch.value[0][1] = node_value(i, next_j);
+  patch.value[1][1] = node_value(next_i, next_j);
+  return patch;
+}
+
+double OccupancyMap::distance(const Eigen::Vector2d& position_world) const {
+  return patch_of(position_world, [this](int i, int j) { return node_distance(i, j); }).interpolated();
+}
+
+Eigen::Vector2d OccupancyMap::distance_gradient(const Eigen::Vector2d& position_world) const {
+  const Patch patch = patch_of(position_world, [this](int i, int j) { return node_distance(i, j); });
+  return patch.slope() / frame_.resolution;
+}
+
+double OccupancyMap::min_distance_along(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                        double enough) const {
+  return trace(a, b, enough, false);
+}
+
+bool OccupancyMap::segment_clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance) const {
+  return trace(a, b, clearance, true) >= clearance;
+}
+
+// Distance falls by at most one metre a metre, so a place at distance d vouches for d - lowest around it; a
+// quarter of a cell is kept back for the interpolation, and is the smallest step.
+double OccupancyMap::trace(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double enough,
+                           bool stop_at_first) const {
+  const Eigen::Vector2d along = b - a;
+  const double length = along.norm();
+  double lowest = std::min(distance(a), distance(b));
+  if (!(length > 0.0) || (stop_at_first && lowest < enough)) return lowest;
+  if (!std::isfinite(length)) return -std::numeric_limits<double>::infinity();
+  const double smallest_step = 0.25 * frame_.resolution;
+  const Eigen::Vector2d direction = along / length;
+  double travelled = 0.0;
+  double here = distance(a);
+  while (true) {
+    travelled += std::max(here - std::min(lowest, enough) - smallest_step, smallest_step);
+    if (travelled >= length) return lowest;
+    here = distance(a + travelled * direction);
+    lowest = std::min(lowest, here);
+    if (stop_at_first && lowest < enough) return lowest;
+  }
+}
+
+void OccupancyMap::integrate(const RangeScan& scan, const Pose2& sensor_pose_world,
+                             const std::vector<IgnoredDisc>& ignored) {
+  const Eigen::Vector2d sensor = sensor_pose_world.position_world;
+  const bool finite = sensor.allFinite() && std::isfinite(sensor_pose_world.heading) &&
+                      std::isfinite(scan.angle_min) && std::isfinite(scan.angle_increment) &&
+                      std::isfinite(scan.max_range) && scan.max_range > 0.0;
+  if (!finite) return;
+  const Eigen::Vector2d extent = frame_.resolution * Eigen::Vector2d{frame_.width - 1, frame_.height - 1};
+  if (box_distance(sensor, frame_.origin_world, frame_.origin_world + extent) > scan.max_range) return;
+  collect_beams(scan, sensor_pose_world, ignored);
+  if (beams_.empty()) return;
+  if (!sensed_) sensed_.emplace(frame_, max_distance_, parameters_);
+  if (sensed_->integrate(sensor, beams_)) ++revision_;
+}
+
+void OccupancyMap::collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world,
+                                 const std::vector<IgnoredDisc>& ignored) {
+  // Beams are followed at most across the grid: a sensor may report any large number as its range.
+  const double grid_diagonal = frame_.resolution * std::hypot(frame_.width, frame_.height);
+  const double reach = std::min(scan.max_range, grid_diagonal + scan.max_range * 1e-12);
+  beams_.clear();
+  for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
+    const double range = scan.ranges[k];
+    if (!(range > 0.0)) continue;
+    const double angle =
+        sensor_pose_world.heading + scan.angle_min + static_cast<double>(k) * scan.angle_increment;
+    SensedBeam beam;
+    beam.direction_world = {std::cos(angle), std::sin(angle)};
+    beam.returned = range <= scan.max_range && range <= reach;
+    beam.length = std::min(range, reach);
+    if (beam.returned) {
+      const Eigen::Vector2d end = sensor_pose_world.position_world + range * beam.direction_world;
+      beam.marks = !explained_by_known(end);
+      for (const IgnoredDisc& disc : ignored) {
+        beam.marks = beam.marks && (end - disc.position_world).squaredNorm() > disc.radius * disc.radius;
+      }
+    }
+    beams_.push_back(beam);
+  }
+}
+
+bool OccupancyMap::explained_by_known(const Eigen::Vector2d& position_world) const {
+  if (!known_) return false;
+  const auto known_distance = [this](int i, int j) {
+    return (*known_)[static_cast<std::size_t>(j) * static_cast<std::size_t>(frame_.width) +
+                     static_cast<std::size_t>(i)];
+  };
+  return patch_of(position_world, known_distance).interpolated() < 0.5 * frame_.resolution;
+}
+
+std::vector<Eigen::Vector2d> OccupancyMap::occupied_points() const {
+  return sensed_ ? sensed_->occupied_points() : std::vector<Eigen::Vector2d>{};
+}
+
+}  // namespace spf

@@ -1,0 +1,286 @@
+#include "spf/world/occupancy_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "spf/math/angles.hpp"
+#include "spf/math/random_stream.hpp"
+
+namespace spf {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFloat = 1e-5;  // distances are kept as float: 2^-24 of some metres, with 10 times to spare
+
+OccupancyMap map_of(double half, double resolution = 0.1, double max_distance = 2.0) {
+  return {GridFrame::covering({-half, -half}, {half, half}, resolution), max_distance};
+}
+
+Eigen::Vector2d draw_place(RandomStream& random, double half) {
+  const double x = random.uniform(-half, half);
+  return {x, random.uniform(-half, half)};
+}
+
+/// Distance along a ray from inside a circle of radius `radius` about the origin to the circle.
+double range_to_circle(const Eigen::Vector2d& from, double angle, double radius) {
+  const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
+  const double along = from.dot(direction);
+  return -along + std::sqrt(along * along - from.squaredNorm() + radius * radius);
+}
+
+RangeScan sweep_of(const std::vector<double>& ranges, double max_range = 8.0) {
+  RangeScan scan;
+  scan.angle_min = -kPi;
+  scan.angle_increment = 2.0 * kPi / static_cast<double>(ranges.size());
+  scan.max_range = max_range;
+  scan.ranges = ranges;
+  return scan;
+}
+
+RangeScan sweep_in_circle(const Pose2& pose, double radius, std::size_t beams = 180) {
+  RangeScan scan = sweep_of(std::vector<double>(beams));
+  for (std::size_t k = 0; k < beams; ++k) {
+    const double angle = pose.heading + scan.angle_min + static_cast<double>(k) * scan.angle_increment;
+    scan.ranges[k] = range_to_circle(pose.position_world, angle, radius);
+  }
+  return scan;
+}
+
+void expect_distances_of_points(const OccupancyMap& map) {
+  const std::vector<Eigen::Vector2d> points = map.occupied_points();
+  for (int j = 0; j < map.frame().height; ++j) {
+    for (int i = 0; i < map.frame().width; ++i) {
+      double nearest = map.max_distance();
+      for (const Eigen::Vector2d& point : points) {
+        nearest = std::min(nearest, (map.node_position(i, j) - point).norm());
+      }
+      ASSERT_NEAR(map.node_distance(i, j), nearest, kFloat) << "node " << i << ", " << j;
+    }
+  }
+}
+
+TEST(GridFrame, CoversWithoutAColumnTooMany) {
+  const GridFrame frame = GridFrame::covering({-15.0, -15.0}, {15.0, 15.0}, 0.1);
+  EXPECT_EQ(frame.width, 301);
+  EXPECT_EQ(frame.height, 301);
+  EXPECT_EQ(GridFrame::covering({0.0, 0.0}, {0.25, 0.0}, 0.1).width, 4);
+  EXPECT_THROW((void)GridFrame::covering({0.0, 0.0}, {-1.0, 1.0}, 0.1), std::invalid_argument);
+  EXPECT_THROW((void)GridFrame::covering({0.0, 0.0}, {1e4, 1e4}, 0.1), std::invalid_argument);
+}
+
+TEST(OccupancyMap, RefusesUnusableMeasures) {
+  EXPECT_THROW((OccupancyMap{GridFrame{}, 2.0}), std::invalid_argument);
+  EXPECT_THROW((OccupancyMap{GridFrame::covering({0, 0}, {1, 1}, 0.1), 0.0}), std::invalid_argument);
+  OccupancyParameters parameters;
+  parameters.hit_probability = std::nan("");
+  EXPECT_THROW((OccupancyMap{GridFrame::covering({0, 0}, {1, 1}, 0.1), 1.0, parameters}),
+               std::invalid_argument);
+  OccupancyMap map = map_of(1.0);
+  EXPECT_THROW(map.add_box({0.0, 0.0}, {0.0, 1.0}), std::invalid_argument);
+  EXPECT_THROW(map.add_disc({std::nan(""), 0.0}, 1.0), std::invalid_argument);
+}
+
+TEST(OccupancyMap, KnownShapesHaveExactDistancesAtNodes) {
+  OccupancyMap map = map_of(5.0);
+  map.add_box({-2.03, 0.51}, {-0.77, 1.98});
+  map.add_disc({1.5, -1.0}, 0.75);
+  map.add_border({-4.5, -4.0}, {4.5, 4.9});
+  for (int j = 0; j < map.frame().height; ++j) {
+    for (int i = 0; i < map.frame().width; ++i) {
+      const Eigen::Vector2d p = map.node_position(i, j);
+      const double dx = std::max(-2.03 - p.x(), p.x() + 0.77);
+      const double dy = std::max(0.51 - p.y(), p.y() - 1.98);
+      const double box = dx > 0.0 && dy > 0.0 ? std::hypot(dx, dy) : std::max(dx, dy);
+      const double disc = std::hypot(p.x() - 1.5, p.y() + 1.0) - 0.75;
+      const double ex = std::max(-4.5 - p.x(), p.x() - 4.5);
+      const double ey = std::max(-4.0 - p.y(), p.y() - 4.9);
+      const double border = -(ex > 0.0 && ey > 0.0 ? std::hypot(ex, ey) : std::max(ex, ey));
+      const double expected = std::min({box, disc, border, 2.0});
+      ASSERT_NEAR(map.node_distance(i, j), expected, kFloat) << p.transpose();
+    }
+  }
+}
+
+TEST(OccupancyMap, GradientMatchesCentralDifferences) {
+  OccupancyMap map = map_of(3.0);
+  map.add_box({-1.0, -1.0}, {0.5, 0.3});
+  map.add_disc({1.5, 1.2}, 0.4);
+  Pose2 pose;
+  pose.position_world = {1.0, -1.5};
+  for (int k = 0; k < 4; ++k) map.integrate(sweep_of({0.9, 0.7, 1.1, 0.8, 1.3, kInfinity, 0.6}), pose, {});
+  ASSERT_FALSE(map.occupied_points().empty());
+  RandomStream random{11};
+  const double step = 1e-6;
+  for (int k = 0; k < 2000; ++k) {
+    const Eigen::Vector2d place = draw_place(random, 3.5);  // some outside the grid
+    // The interpolation is smooth within a cell; skip the few places whose difference would straddle two
+    // cells.
+    const Eigen::Array2d cell = ((place - map.frame().origin_world) / map.frame().resolution).array();
+    if (((cell - cell.round()).abs() < 1e-3).any()) continue;
+    Eigen::Vector2d expected;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d shift = step * Eigen::Vector2d::Unit(axis);
+      expected[axis] = (map.distance(place + shift) - map.distance(place - shift)) / (2.0 * step);
+    }
+    // Bilinear: no truncation error; rounding 1e-16 * some metres / 2e-6.
+    EXPECT_LT((map.distance_gradient(place) - expected).norm(), 1e-8) << place.transpose();
+  }
+}
+
+TEST(OccupancyMap, HoldsTheEdgeValueOutsideTheGrid) {
+  OccupancyMap map = map_of(2.0);
+  map.add_disc({1.8, 0.0}, 0.5);
+  EXPECT_DOUBLE_EQ(map.distance({7.0, 0.33}), map.distance({2.0, 0.33}));
+  EXPECT_EQ(map.distance_gradient({7.0, 0.33}).x(), 0.0);
+}
+
+TEST(OccupancyMap, CopiesShareKnownShapesUntilOneChanges) {
+  OccupancyMap map = map_of(2.0);
+  map.add_disc({0.0, 0.0}, 0.5);
+  OccupancyMap copy = map;
+  copy.add_disc({1.0, 1.0}, 0.5);
+  EXPECT_NEAR(copy.distance({1.0, 1.0}), -0.5, kFloat);
+  EXPECT_GT(map.distance({1.0, 1.0}), 0.8);
+  EXPECT_GT(copy.revision(), map.revision());
+}
+
+TEST(OccupancyMap, SensesSurfacesAtTheirHitPoints) {
+  OccupancyMap map = map_of(6.0);
+  Pose2 pose;
+  pose.position_world = {0.7, -0.4};
+  pose.heading = 0.3;
+  for (int k = 0; k < 3; ++k) map.integrate(sweep_in_circle(pose, 4.0), pose, {});
+  const std::vector<Eigen::Vector2d> points = map.occupied_points();
+  ASSERT_GT(points.size(), 100u);
+  for (const Eigen::Vector2d& point : points) EXPECT_NEAR(point.norm(), 4.0, 1e-5);  // offsets kept to 2 um
+  expect_distances_of_points(map);
+}
+
+TEST(OccupancyMap, BelievesAfterThreeReturnsNotTwo) {
+  OccupancyMap map = map_of(3.0);  // odds 1.857 per hit: 3.45 after two (0.775), 6.4 after three (0.865)
+  for (int k = 0; k < 2; ++k) map.integrate(sweep_of({1.0}), Pose2{}, {});
+  EXPECT_TRUE(map.occupied_points().empty());
+  const std::uint64_t before = map.revision();
+  map.integrate(sweep_of({1.0}), Pose2{}, {});
+  EXPECT_EQ(map.occupied_points().size(), 1u);
+  EXPECT_GT(map.revision(), before);
+}
+
+TEST(OccupancyMap, ForgetsVanishedSurfacesExactly) {
+  OccupancyMap map = map_of(6.0);
+  RandomStream random{5};
+  // Rooms of changing size seen from changing places: cells appear and vanish in all orders.
+  for (int k = 0; k < 60; ++k) {
+    Pose2 pose;
+    pose.position_world = draw_place(random, 0.5);
+    pose.heading = random.uniform(-kPi, kPi);
+    map.integrate(sweep_in_circle(pose, 1.5 + 0.5 * ((k / 6) % 4), 90), pose, {});
+    if (k % 10 == 9) expect_distances_of_points(map);
+  }
+  ASSERT_FALSE(map.occupied_points().empty());
+  for (int k = 0; k < 400; ++k) {
+    Pose2 pose;
+    pose.position_world = draw_place(random, 0.5);
+    pose.heading = random.uniform(-kPi, kPi);
+    map.integrate(sweep_of(std::vector<double>(180, kInfinity)), pose, {});
+  }
+  EXPECT_TRUE(map.occupied_points().empty());
+  EXPECT_DOUBLE_EQ(map.distance({2.0, 0.0}), map.max_distance());
+}
+
+TEST(OccupancyMap, GrazingBeamsDoNotWearAwayAWall) {
+  OccupancyMap map = map_of(9.0);
+  // Drive along a long wall at 0.4 m; most beams meet it at a small angle.
+  const double wall_y = 0.43;
+  const double step = 2.0 * kPi / 180.0;
+  for (int k = 0; k < 120; ++k) {
+    Pose2 pose;
+    pose.position_world = {-3.0 + 0.05 * k, 0.0};
+    RangeScan scan = sweep_of(std::vector<double>(180, kInfinity));
+    for (std::size_t b = 0; b < 180; ++b) {
+      const double angle = scan.angle_min + static_cast<double>(b) * step;
+      if (std::sin(angle) > 0.06) scan.ranges[b] = wall_y / std::sin(angle);
+    }
+    map.integrate(scan, pose, {});
+  }
+  // Every cell of the wall that was passed is there.
+  const std::vector<Eigen::Vector2d> points = map.occupied_points();
+  for (int i = -25; i <= 25; ++i) {
+    const bool there = std::any_of(points.begin(), points.end(), [i](const Eigen::Vector2d& point) {
+      return std::fabs(point.x() - 0.1 * i) < 0.0501;  // half a cell, and the rounding of the hit's place
+    });
+    EXPECT_TRUE(there) << "cell at x = " << 0.1 * i;
+  }
+}
+
+TEST(OccupancyMap, IgnoredDiscsAreNeitherMarkedNorSeenThrough) {
+  OccupancyMap map = map_of(5.0);
+  const std::vector<double> wall(90, 3.0);
+  for (int k = 0; k < 5; ++k) map.integrate(sweep_of(wall), Pose2{}, {});
+  const std::size_t wall_cells = map.occupied_points().size();
+  ASSERT_GT(wall_cells, 60u);
+  const std::vector<double> person(90, 1.5);
+  for (int k = 0; k < 5; ++k) map.integrate(sweep_of(person), Pose2{}, {{{0.0, 0.0}, 1.6}});
+  EXPECT_EQ(map.occupied_points().size(), wall_cells);
+  for (int k = 0; k < 8; ++k) map.integrate(sweep_of(person), Pose2{}, {});
+  EXPECT_GT(map.occupied_points().size(), wall_cells);
+}
+
+TEST(OccupancyMap, ReturnsFromKnownShapesAreNotEnteredTwice) {
+  OccupancyMap map = map_of(5.0);
+  map.add_border({-4.0, -4.0}, {4.0, 4.0});
+  const std::uint64_t before = map.revision();
+  RangeScan scan = sweep_of(std::vector<double>(120));
+  for (std::size_t b = 0; b < scan.ranges.size(); ++b) {
+    const double angle = scan.angle_min + static_cast<double>(b) * scan.angle_increment;
+    scan.ranges[b] = 4.0 / std::max(std::fabs(std::cos(angle)), std::fabs(std::sin(angle)));
+  }
+  for (int k = 0; k < 5; ++k) map.integrate(scan, Pose2{}, {});
+  EXPECT_TRUE(map.occupied_points().empty());
+  EXPECT_EQ(map.revision(), before);
+}
+
+TEST(OccupancyMap, BadRangesAndPosesAreSkipped) {
+  OccupancyMap map = map_of(3.0);
+  const RangeScan scan = sweep_of({std::nan(""), -1.0, 0.0, -kInfinity, 1e300, kInfinity});
+  for (int k = 0; k < 5; ++k) map.integrate(scan, Pose2{}, {});
+  Pose2 lost;
+  lost.position_world = {std::nan(""), 0.0};
+  for (int k = 0; k < 5; ++k) map.integrate(sweep_of({1.0}), lost, {});
+  lost.position_world = {1e12, 0.0};
+  for (int k = 0; k < 5; ++k) map.integrate(sweep_of({1.0}), lost, {});
+  RangeScan boundless = sweep_of({1e9, kInfinity}, 1e9);
+  map.integrate(boundless, Pose2{}, {});
+  EXPECT_TRUE(map.occupied_points().empty());
+}
+
+TEST(OccupancyMap, SegmentsFindTheirSmallestDistance) {
+  OccupancyMap map = map_of(6.0);
+  RandomStream random{21};
+  for (int k = 0; k < 6; ++k) map.add_disc(draw_place(random, 5.0), random.uniform(0.2, 0.8));
+  map.add_box({-1.0, -2.0}, {0.5, -1.2});
+  for (int k = 0; k < 500; ++k) {
+    const Eigen::Vector2d a = draw_place(random, 6.0);
+    const Eigen::Vector2d b = draw_place(random, 6.0);
+    double lowest = kInfinity;
+    for (int s = 0; s <= 4000; ++s) lowest = std::min(lowest, map.distance(a + s / 4000.0 * (b - a)));
+    const double found = map.min_distance_along(a, b, 1.0);
+    // Looks every 2.5 cm at least; between two looks the distance dips by at most half of that at slope 1.
+    if (lowest < 1.0) {
+      EXPECT_NEAR(found, lowest, 0.0125 + 1e-6) << "case " << k;
+    } else {
+      EXPECT_GE(found, 1.0) << "case " << k;
+    }
+    const double clearance = random.uniform(0.1, 0.6);
+    if (std::fabs(lowest - clearance) > 0.0126) {
+      EXPECT_EQ(map.segment_clear(a, b, clearance), lowest >= clearance) << "case " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spf

@@ -1,0 +1,247 @@
+#include "spf/world/sensed_layer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spf {
+namespace {
+
+constexpr double kLogOddsUnit = 4096.0;  // steps per unit of log odds; |log odds| <= 4.6 fits 16 bits
+constexpr double kOffsetUnit = 32767.0;  // steps per half cell
+
+std::int16_t quantised_log_odds(double probability) {
+  return static_cast<std::int16_t>(std::lround(kLogOddsUnit * std::log(probability / (1.0 - probability))));
+}
+
+std::int16_t quantised_offset(double offset, double resolution) {
+  const double steps = offset / (0.5 * resolution) * kOffsetUnit;
+  return static_cast<std::int16_t>(std::lround(std::clamp(steps, -kOffsetUnit, kOffsetUnit)));
+}
+
+}  // namespace
+
+SensedLayer::SensedLayer(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters)
+    : frame_{frame},
+      max_distance_{static_cast<float>(max_distance)},
+      reach_{static_cast<int>(std::ceil(max_distance / frame.resolution + 0.5))},
+      hit_step_{quantised_log_odds(parameters.hit_probability)},
+      miss_step_{quantised_log_odds(parameters.miss_probability)},
+      lowest_{quantised_log_odds(parameters.lowest_probability)},
+      highest_{quantised_log_odds(parameters.highest_probability)},
+      occupied_from_{quantised_log_odds(parameters.occupied_probability)},
+      tiles_across_{(frame.width + kTileSide - 1) >> kTileBits} {
+  const int tiles_up = (frame.height + kTileSide - 1) >> kTileBits;
+  tile_of_.assign(static_cast<std::size_t>(tiles_across_) * static_cast<std::size_t>(tiles_up), -1);
+}
+
+bool SensedLayer::integrate(const Eigen::Vector2d& sensor_world, const std::vector<SensedBeam>& beams) {
+  begin_sweep();
+  for (const SensedBeam& beam : beams) {
+    if (beam.marks) enter_return(sensor_world + beam.length * beam.direction_world);
+  }
+  for (const SensedBeam& beam : beams) cross_cells(sensor_world, beam);
+  forget(vanished_);
+  for (const Hit& hit : appeared_) stamp(hit);
+  return !vanished_.empty() || !appeared_.empty();
+}
+
+void SensedLayer::begin_sweep() {
+  appeared_.clear();
+  vanished_.clear();
+  if (++sweep_ != 0) return;
+  for (Tile& tile : tiles_) tile.sweep.fill(0);
+  sweep_ = 1;
+}
+
+SensedLayer::Tile& SensedLayer::tile_at(int i, int j) {
+  std::int32_t& index = tile_of_[tile_slot(i, j)];
+  if (index < 0) {
+    index = static_cast<std::int32_t>(tiles_.size());
+    Tile& fresh = tiles_.emplace_back();
+    fresh.first_i = i & ~(kTileSide - 1);
+    fresh.first_j = j & ~(kTileSide - 1);
+    fresh.distance.fill(max_distance_);
+    fresh.log_odds.fill(0);
+    fresh.hit_x.fill(0);
+    fresh.hit_y.fill(0);
+    fresh.sweep.fill(0);
+  }
+  return tiles_[static_cast<std::size_t>(index)];
+}
+
+SensedLayer::NodeWindow SensedLayer::window_around(int i, int j, int reach) const {
+  return {std::max(i - reach, 0), std::min(i + reach, frame_.width - 1), std::max(j - reach, 0),
+          std::min(j + reach, frame_.height - 1)};
+}
+
+SensedLayer::Hit SensedLayer::hit_of(const Tile& tile, std::size_t slot) const {
+  const float unit = static_cast<float>(0.5 * frame_.resolution / kOffsetUnit);
+  const int i = tile.first_i + static_cast<int>(slot & (kTileSide - 1));
+  const int j = tile.first_j + static_cast<int>(slot >> kTileBits);
+  return {i, j,
+          unit * Eigen::Vector2f{static_cast<float>(tile.hit_x[slot]), static_cast<float>(tile.hit_y[slot])}};
+}
+
+void SensedLayer::enter_return(const Eigen::Vector2d& end_world) {
+  const Eigen::Vector2d scaled = (end_world - frame_.origin_world) / frame_.resolution;
+  const int i = static_cast<int>(std::floor(scaled.x() + 0.5));
+  const int j = static_cast<int>(std::floor(scaled.y() + 0.5));
+  if (!frame_.contains(i, j)) return;
+  Tile& tile = tile_at(i, j);
+  const std::size_t slot = cell_slot(i, j);
+  if (tile.sweep[slot] == sweep_) return;
+  tile.sweep[slot] = sweep_;
+  std::int16_t& log_odds = tile.log_odds[slot];
+  const bool was_occupied = log_odds >= occupied_from_;
+  log_odds = static_cast<std::int16_t>(std::min<int>(log_odds + hit_step_, highest_));
+  if (was_occupied) return;
+  tile.hit_x[slot] = quantised_offset((scaled.x() - i) * frame_.resolution, frame_.resolution);
+  tile.hit_y[slot] = quantised_offset((scaled.y() - j) * frame_.resolution, frame_.resolution);
+  if (log_odds < occupied_from_) return;
+  ++tile.occupied_cells;
+  appeared_.push_back(hit_of(tile, slot));
+}
+
+// Visits the cells along the beam in order (Amanatides and Woo); the cell of a return is left out.
+void SensedLayer::cross_cells(const Eigen::Vector2d& sensor_world, const SensedBeam& beam) {
+  const Eigen::Vector2d start =
+      (sensor_world - frame_.origin_world) / frame_.resolution + Eigen::Vector2d{0.5, 0.5};
+  const Eigen::Vector2d end = start + beam.length / frame_.resolution * beam.direction_world;
+  Eigen::Vector2i cell{static_cast<int>(std::floor(start.x())), static_cast<int>(std::floor(start.y()))};
+  const Eigen::Vector2i last{static_cast<int>(std::floor(end.x())), static_cast<int>(std::floor(end.y()))};
+  Eigen::Vector2i step;
+  Eigen::Vector2d next;   // beam length in cells at which the next column or row begins
+  Eigen::Vector2d pitch;  // beam length in cells from one column or row to the next
+  for (int axis = 0; axis < 2; ++axis) {
+    const double slope = beam.direction_world[axis];
+    step[axis] = slope < 0.0 ? -1 : 1;
+    pitch[axis] = std::fabs(1.0 / slope);  // infinite along the other axis
+    const double to_border = slope < 0.0 ? start[axis] - cell[axis] : cell[axis] + 1.0 - start[axis];
+    next[axis] = slope == 0.0 ? pitch[axis] : to_border * pitch[axis];
+  }
+  int remaining = std::abs(last.x() - cell.x()) + std::abs(last.y() - cell.y());
+  if (beam.returned) --remaining;
+  for (; remaining >= 0; --remaining) {
+    if (frame_.contains(cell.x(), cell.y())) enter_crossing(cell.x(), cell.y(), sensor_world, beam);
+    const int axis = next.x() < next.y() ? 0 : 1;
+    cell[axis] += step[axis];
+    next[axis] += pitch[axis];
+  }
+}
+
+void SensedLayer::enter_crossing(int i, int j, const Eigen::Vector2d& sensor_world, const SensedBeam& beam) {
+  Tile& tile = tile_at(i, j);
+  const std::size_t slot = cell_slot(i, j);
+  if (tile.sweep[slot] == sweep_) return;
+  std::int16_t& log_odds = tile.log_odds[slot];
+  if (log_odds > 0 && !contradicts(hit_of(tile, slot), sensor_world, beam)) return;
+  tile.sweep[slot] = sweep_;
+  const bool was_occupied = log_odds >= occupied_from_;
+  const int lowered = std::max<int>(log_odds + miss_step_, lowest_);
+  log_odds = static_cast<std::int16_t>(lowered);
+  if (!was_occupied || lowered >= occupied_from_) return;
+  --tile.occupied_cells;
+  vanished_.push_back(hit_of(tile, slot));
+}
+
+// A beam argues against a hit point only when it passes close by it and goes on well beyond: otherwise beams
+// that graze a wall would wear away the cells in which it stands.
+bool SensedLayer::contradicts(const Hit& hit, const Eigen::Vector2d& sensor_world,
+                              const SensedBeam& beam) const {
+  const Eigen::Vector2d to_hit =
+      frame_.node_position(hit.i, hit.j) + hit.offset.cast<double>() - sensor_world;
+  const double along = to_hit.dot(beam.direction_world);
+  const double beside = to_hit.x() * beam.direction_world.y() - to_hit.y() * beam.direction_world.x();
+  return std::fabs(beside) < 0.25 * frame_.resolution && beam.length > along + frame_.resolution;
+}
+
+void SensedLayer::stamp(const Hit& hit) {
+  const NodeWindow window = window_around(hit.i, hit.j, reach_);
+  const float resolution = static_cast<float>(frame_.resolution);
+  for (int tile_j = window.low_j & ~(kTileSide - 1); tile_j <= window.high_j; tile_j += kTileSide) {
+    for (int tile_i = window.low_i & ~(kTileSide - 1); tile_i <= window.high_i; tile_i += kTileSide) {
+      Tile& tile = tile_at(tile_i, tile_j);
+      const int low_i = std::max(window.low_i, tile_i);
+      const int count = std::min(window.high_i, tile_i + kTileSide - 1) - low_i + 1;
+      const int high_j = std::min(window.high_j, tile_j + kTileSide - 1);
+      for (int j = std::max(window.low_j, tile_j); j <= high_j; ++j) {
+        const float dy = static_cast<float>(j - hit.j) * resolution - hit.offset.y();
+        float* row = tile.distance.data() + cell_slot(low_i, j);
+        for (int k = 0; k < count; ++k) {
+          const float dx = static_cast<float>(low_i + k - hit.i) * resolution - hit.offset.x();
+          row[k] = std::min(row[k], std::sqrt(dx * dx + dy * dy));
+        }
+      }
+    }
+  }
+}
+
+// Only nodes whose nearest hit point has vanished need a new distance; first all of them are cleared, then
+// each looks at the hit points that are left.
+void SensedLayer::forget(const std::vector<Hit>& vanished) {
+  if (vanished.empty()) return;
+  const float resolution = static_cast<float>(frame_.resolution);
+  orphans_.clear();
+  std::vector<std::size_t> ends;
+  for (const Hit& hit : vanished) {
+    const NodeWindow window = window_around(hit.i, hit.j, reach_);
+    for (int j = window.low_j; j <= window.high_j; ++j) {
+      for (int i = window.low_i; i <= window.high_i; ++i) {
+        const float dx = static_cast<float>(i - hit.i) * resolution - hit.offset.x();
+        const float dy = static_cast<float>(j - hit.j) * resolution - hit.offset.y();
+        const float own = std::sqrt(dx * dx + dy * dy);
+        float& stored = tile_at(i, j).distance[cell_slot(i, j)];
+        if (own >= max_distance_ || stored < own * (1.0F - 1e-6F)) continue;
+        stored = max_distance_;
+        orphans_.emplace_back(i, j);
+      }
+    }
+    ends.push_back(orphans_.size());
+  }
+  for (std::size_t k = 0; k < vanished.size(); ++k) restore(vanished[k], k == 0 ? 0 : ends[k - 1], ends[k]);
+}
+
+void SensedLayer::restore(const Hit& vanished, std::size_t first_node, std::size_t last_node) {
+  const NodeWindow window = window_around(vanished.i, vanished.j, 2 * reach_);
+  nearby_.clear();
+  for (const Tile& tile : tiles_) {
+    if (tile.occupied_cells == 0 || tile.first_i > window.high_i ||
+        tile.first_i + kTileSide <= window.low_i || tile.first_j > window.high_j ||
+        tile.first_j + kTileSide <= window.low_j)
+      continue;
+    for (std::size_t slot = 0; slot < kTileCells; ++slot)
+      if (tile.log_odds[slot] >= occupied_from_) nearby_.push_back(hit_of(tile, slot));
+  }
+  const float resolution = static_cast<float>(frame_.resolution);
+  for (std::size_t n = first_node; n < last_node; ++n) {
+    const Eigen::Vector2i node = orphans_[n];
+    float nearest = max_distance_ * max_distance_;
+    for (const Hit& hit : nearby_) {
+      const float dx = static_cast<float>(node.x() - hit.i) * resolution - hit.offset.x();
+      const float dy = static_cast<float>(node.y() - hit.j) * resolution - hit.offset.y();
+      nearest = std::min(nearest, dx * dx + dy * dy);
+    }
+    float& stored = tile_at(node.x(), node.y()).distance[cell_slot(node.x(), node.y())];
+    stored = std::min(stored, std::sqrt(nearest));
+  }
+}
+
+bool SensedLayer::occupied(int i, int j) const {
+  const int tile = tile_of_[tile_slot(i, j)];
+  return tile >= 0 && tiles_[static_cast<std::size_t>(tile)].log_odds[cell_slot(i, j)] >= occupied_from_;
+}
+
+std::vector<Eigen::Vector2d> SensedLayer::occupied_points() const {
+  std::vector<Eigen::Vector2d> points;
+  for (const Tile& tile : tiles_) {
+    if (tile.occupied_cells == 0) continue;
+    for (std::size_t slot = 0; slot < kTileCells; ++slot) {
+      if (tile.log_odds[slot] < occupied_from_) continue;
+      const Hit hit = hit_of(tile, slot);
+      points.push_back(frame_.node_position(hit.i, hit.j) + hit.offset.cast<double>());
+    }
+  }
+  return points;
+}
+
+}  // namespace spf

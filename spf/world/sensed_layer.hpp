@@ -1,0 +1,98 @@
+// What a range sensor has seen, on a grid: log odds per cell, the hit point of every occupied cell, and the
+// distance from every node to the nearest hit point. Part of OccupancyMap. Frame: world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "spf/world/grid_frame.hpp"
+#include "spf/world/occupancy_parameters.hpp"
+
+namespace spf {
+
+/// One beam of a sweep: free up to its end, which is a surface or nothing.
+struct SensedBeam {
+  Eigen::Vector2d direction_world = Eigen::Vector2d::UnitX();  ///< unit vector
+  double length = 0.0;                                         ///< [m] free up to here
+  bool returned = false;  ///< something stands at the end: the cell of the end is not crossed
+  bool marks = false;     ///< and it is a static surface to be entered
+};
+
+/// Memory grows with the area seen, in tiles of 32 x 32 nodes (12 KB each): a map of a square kilometre costs
+/// a robot only what lies along its way.
+class SensedLayer {
+ public:
+  SensedLayer(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters);
+
+  /// Enters a sweep; every cell is touched at most once, returns before crossings, so that a beam never
+  /// carves away what another beam of the same sweep has hit. True when any distance changed.
+  bool integrate(const Eigen::Vector2d& sensor_world, const std::vector<SensedBeam>& beams);
+
+  /// Distance from node (i, j) to the nearest hit point of an occupied cell [m], at most max_distance.
+  [[nodiscard]] float distance(int i, int j) const {
+    const int tile = tile_of_[tile_slot(i, j)];
+    return tile < 0 ? max_distance_ : tiles_[static_cast<std::size_t>(tile)].distance[cell_slot(i, j)];
+  }
+  [[nodiscard]] bool occupied(int i, int j) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> occupied_points() const;
+
+ private:
+  static constexpr int kTileBits = 5;
+  static constexpr int kTileSide = 1 << kTileBits;
+  static constexpr std::size_t kTileCells = std::size_t{1} << (2 * kTileBits);
+
+  struct Tile {
+    int first_i = 0;
+    int first_j = 0;
+    int occupied_cells = 0;
+    std::array<float, kTileCells> distance;
+    std::array<std::int16_t, kTileCells> log_odds;  // in units of 1 / kLogOddsUnit
+    std::array<std::int16_t, kTileCells> hit_x;     // offset from the node in units of half a cell / 32767;
+    std::array<std::int16_t, kTileCells> hit_y;     // valid while log_odds > 0
+    std::array<std::uint16_t, kTileCells> sweep;    // last sweep that touched the cell
+  };
+  struct Hit {
+    int i;
+    int j;
+    Eigen::Vector2f offset;  // [m] from node (i, j)
+  };
+  struct NodeWindow {
+    int low_i, high_i, low_j, high_j;  // inclusive
+  };
+
+  [[nodiscard]] std::size_t tile_slot(int i, int j) const {
+    return static_cast<std::size_t>(j >> kTileBits) * static_cast<std::size_t>(tiles_across_) +
+           static_cast<std::size_t>(i >> kTileBits);
+  }
+  [[nodiscard]] static std::size_t cell_slot(int i, int j) {
+    return static_cast<std::size_t>(((j & (kTileSide - 1)) << kTileBits) | (i & (kTileSide - 1)));
+  }
+  Tile& tile_at(int i, int j);
+  [[nodiscard]] NodeWindow window_around(int i, int j, int reach) const;
+  [[nodiscard]] Hit hit_of(const Tile& tile, std::size_t slot) const;
+  void enter_return(const Eigen::Vector2d& end_world);
+  void cross_cells(const Eigen::Vector2d& sensor_world, const SensedBeam& beam);
+  void enter_crossing(int i, int j, const Eigen::Vector2d& sensor_world, const SensedBeam& beam);
+  [[nodiscard]] bool contradicts(const Hit& hit, const Eigen::Vector2d& sensor_world,
+                                 const SensedBeam& beam) const;
+  void stamp(const Hit& hit);
+  void forget(const std::vector<Hit>& vanished);
+  void restore(const Hit& vanished, std::size_t first_node, std::size_t last_node);
+  void begin_sweep();
+
+  GridFrame frame_;
+  float max_distance_;  // [m]
+  int reach_;           // [nodes] of max_distance
+  std::int16_t hit_step_, miss_step_, lowest_, highest_, occupied_from_;
+  int tiles_across_;
+  std::vector<std::int32_t> tile_of_;  // index into tiles_, -1 = nothing seen there
+  std::vector<Tile> tiles_;
+  std::uint16_t sweep_ = 0;
+  std::vector<Hit> appeared_, vanished_, nearby_;  // of the sweep under way, kept for their memory
+  std::vector<Eigen::Vector2i> orphans_;           // nodes whose nearest hit has vanished
+};
+
+}  // namespace spf
