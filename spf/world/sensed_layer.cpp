@@ -18,6 +18,32 @@ std::int16_t quantised_offset(double offset, double resolution) {
   return static_cast<std::int16_t>(std::lround(std::clamp(steps, -kOffsetUnit, kOffsetUnit)));
 }
 
+/// Whether the surface that beams `index` and `other` have met runs through a place: within `tolerance` of
+/// the line through both returns, and not farther along it than they are apart from each other, twice.
+bool explained_by_pair(const Eigen::Vector2d& from_sensor, const std::vector<SensedBeam>& beams,
+                       std::size_t index, std::size_t other, double tolerance) {
+  if (other >= beams.size() || !beams[index].returned || !beams[other].returned) return false;
+  const Eigen::Vector2d end = beams[index].length * beams[index].direction_world;
+  const Eigen::Vector2d along = beams[other].length * beams[other].direction_world - end;
+  const Eigen::Vector2d to_place = from_sensor - end;
+  const double beside = to_place.x() * along.y() - to_place.y() * along.x();
+  return std::fabs(beside) < tolerance * along.norm() && to_place.norm() < 2.0 * along.norm();
+}
+
+/// A beam argues against a hit point when it passes close by it and goes on beyond, and the surface that it
+/// meets then is another one: otherwise beams that graze a wall would wear away the cells in which it stands.
+bool contradicts(const Eigen::Vector2d& hit_from_sensor, const std::vector<SensedBeam>& beams,
+                 std::size_t index, double resolution) {
+  const SensedBeam& beam = beams[index];
+  const double along = hit_from_sensor.dot(beam.direction_world);
+  const double beside =
+      hit_from_sensor.x() * beam.direction_world.y() - hit_from_sensor.y() * beam.direction_world.x();
+  if (std::fabs(beside) > 0.25 * resolution || beam.length < along + resolution) return false;
+  // index - 1 of the first beam wraps to a number past the end.
+  return !explained_by_pair(hit_from_sensor, beams, index, index + 1, 0.5 * resolution) &&
+         !explained_by_pair(hit_from_sensor, beams, index, index - 1, 0.5 * resolution);
+}
+
 }  // namespace
 
 SensedLayer::SensedLayer(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters)
@@ -39,7 +65,7 @@ bool SensedLayer::integrate(const Eigen::Vector2d& sensor_world, const std::vect
   for (const SensedBeam& beam : beams) {
     if (beam.marks) enter_return(sensor_world + beam.length * beam.direction_world);
   }
-  for (const SensedBeam& beam : beams) cross_cells(sensor_world, beam);
+  for (std::size_t k = 0; k < beams.size(); ++k) cross_cells(sensor_world, beams, k);
   forget(vanished_);
   for (const Hit& hit : appeared_) stamp(hit);
   return !vanished_.empty() || !appeared_.empty();
@@ -103,7 +129,9 @@ void SensedLayer::enter_return(const Eigen::Vector2d& end_world) {
 }
 
 // Visits the cells along the beam in order (Amanatides and Woo); the cell of a return is left out.
-void SensedLayer::cross_cells(const Eigen::Vector2d& sensor_world, const SensedBeam& beam) {
+void SensedLayer::cross_cells(const Eigen::Vector2d& sensor_world, const std::vector<SensedBeam>& beams,
+                              std::size_t index) {
+  const SensedBeam& beam = beams[index];
   const Eigen::Vector2d start =
       (sensor_world - frame_.origin_world) / frame_.resolution + Eigen::Vector2d{0.5, 0.5};
   const Eigen::Vector2d end = start + beam.length / frame_.resolution * beam.direction_world;
@@ -122,19 +150,24 @@ void SensedLayer::cross_cells(const Eigen::Vector2d& sensor_world, const SensedB
   int remaining = std::abs(last.x() - cell.x()) + std::abs(last.y() - cell.y());
   if (beam.returned) --remaining;
   for (; remaining >= 0; --remaining) {
-    if (frame_.contains(cell.x(), cell.y())) enter_crossing(cell.x(), cell.y(), sensor_world, beam);
+    if (frame_.contains(cell.x(), cell.y())) enter_crossing(cell, sensor_world, beams, index);
     const int axis = next.x() < next.y() ? 0 : 1;
     cell[axis] += step[axis];
     next[axis] += pitch[axis];
   }
 }
 
-void SensedLayer::enter_crossing(int i, int j, const Eigen::Vector2d& sensor_world, const SensedBeam& beam) {
-  Tile& tile = tile_at(i, j);
-  const std::size_t slot = cell_slot(i, j);
+void SensedLayer::enter_crossing(const Eigen::Vector2i& cell, const Eigen::Vector2d& sensor_world,
+                                 const std::vector<SensedBeam>& beams, std::size_t index) {
+  Tile& tile = tile_at(cell.x(), cell.y());
+  const std::size_t slot = cell_slot(cell.x(), cell.y());
   if (tile.sweep[slot] == sweep_) return;
   std::int16_t& log_odds = tile.log_odds[slot];
-  if (log_odds > 0 && !contradicts(hit_of(tile, slot), sensor_world, beam)) return;
+  if (log_odds > 0) {
+    const Eigen::Vector2d hit =
+        frame_.node_position(cell.x(), cell.y()) + hit_of(tile, slot).offset.cast<double>();
+    if (!contradicts(hit - sensor_world, beams, index, frame_.resolution)) return;
+  }
   tile.sweep[slot] = sweep_;
   const bool was_occupied = log_odds >= occupied_from_;
   const int lowered = std::max<int>(log_odds + miss_step_, lowest_);
@@ -142,17 +175,6 @@ void SensedLayer::enter_crossing(int i, int j, const Eigen::Vector2d& sensor_wor
   if (!was_occupied || lowered >= occupied_from_) return;
   --tile.occupied_cells;
   vanished_.push_back(hit_of(tile, slot));
-}
-
-// A beam argues against a hit point only when it passes close by it and goes on well beyond: otherwise beams
-// that graze a wall would wear away the cells in which it stands.
-bool SensedLayer::contradicts(const Hit& hit, const Eigen::Vector2d& sensor_world,
-                              const SensedBeam& beam) const {
-  const Eigen::Vector2d to_hit =
-      frame_.node_position(hit.i, hit.j) + hit.offset.cast<double>() - sensor_world;
-  const double along = to_hit.dot(beam.direction_world);
-  const double beside = to_hit.x() * beam.direction_world.y() - to_hit.y() * beam.direction_world.x();
-  return std::fabs(beside) < 0.25 * frame_.resolution && beam.length > along + frame_.resolution;
 }
 
 void SensedLayer::stamp(const Hit& hit) {

@@ -74,10 +74,10 @@ class SensedLayer {
   [[nodiscard]] NodeWindow window_around(int i, int j, int reach) const;
   [[nodiscard]] Hit hit_of(const Tile& tile, std::size_t slot) const;
   void enter_return(const Eigen::Vector2d& end_world);
-  void cross_cells(const Eigen::Vector2d& sensor_world, const SensedBeam& beam);
-  void enter_crossing(int i, int j, const Eigen::Vector2d& sensor_world, const SensedBeam& beam);
-  [[nodiscard]] bool contradicts(const Hit& hit, const Eigen::Vector2d& sensor_world,
-                                 const SensedBeam& beam) const;
+  void cross_cells(const Eigen::Vector2d& sensor_world, const std::vector<SensedBeam>& beams,
+                   std::size_t index);
+  void enter_crossing(const Eigen::Vector2i& cell, const Eigen::Vector2d& sensor_world,
+                      const std::vector<SensedBeam>& beams, std::size_t index);
   void stamp(const Hit& hit);
   void forget(const std::vector<Hit>& vanished);
   void restore(const Hit& vanished, std::size_t first_node, std::size_t last_node);
