@@ -1,0 +1,70 @@
+// Contacts: shapes that touch while they move. Everything is swept: within a step each shape moves linearly,
+// and the least distance over the step is exact. Frame: world.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sim/scenario.hpp"
+#include "sim/uniform_grid.hpp"
+
+namespace spf::sim {
+
+enum class ContactWith { disc, person, robot, box, pillar, wall, border };
+[[nodiscard]] const char* to_string(ContactWith with);
+
+/// Who touched what, when, and how fast both were.
+struct Contact {
+  double time = 0.0;  ///< [s]
+  int robot = -1;
+  ContactWith with = ContactWith::border;
+  int other = -1;  ///< robot number, disc or person id, index of the box, pillar or wall; -1 = the border
+  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m] of the robot
+  double robot_speed = 0.0;                                  ///< [m/s]
+  double other_speed = 0.0;                                  ///< [m/s]
+};
+
+/// Linear motion over one step.
+struct Motion {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< [m]
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< [m]
+  [[nodiscard]] Eigen::Vector2d at(double share) const { return from + share * (to - from); }
+};
+
+/// Least distance of two moving points over a step [m].
+[[nodiscard]] double swept_distance(const Motion& a, const Motion& b);
+/// Share of the step in [0, 1] at which two moving points are first nearer than `distance`.
+[[nodiscard]] std::optional<double> first_within(const Motion& a, const Motion& b, double distance);
+
+/// The static shapes of a scenario, asked for clearances. Far shapes are skipped with a grid of their places.
+class StaticShapes {
+ public:
+  explicit StaticShapes(const Scenario& scenario);
+
+  /// Distance from a robot's centre to the nearest static surface minus its radius, the border included [m];
+  /// anything above kFar reads kFar.
+  [[nodiscard]] double clearance(const Eigen::Vector2d& position_world, double radius) const;
+  static constexpr double kFar = 10.0;
+
+  /// The first contact of a disc that moves over one step, with `time` as the share of the step in [0, 1].
+  [[nodiscard]] std::optional<Contact> first_contact(const Motion& motion, double radius) const;
+
+ private:
+  struct Shape {
+    ContactWith kind;
+    int index;
+  };
+  [[nodiscard]] double distance_to(const Shape& shape, const Eigen::Vector2d& place) const;
+  [[nodiscard]] double swept_distance_to(const Shape& shape, const Motion& motion) const;
+
+  std::optional<Box> border_;
+  std::vector<Box> boxes_;
+  std::vector<Pillar> pillars_;
+  std::vector<Segment> walls_;
+  std::vector<Shape> shapes_;
+  std::vector<Eigen::Vector2d> centers_;  // of the shapes
+  double reach_ = 0.0;                    // [m] largest distance from a shape's centre to its surface
+  UniformGrid grid_;
+};
+
+}  // namespace spf::sim

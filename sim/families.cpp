@@ -1,0 +1,342 @@
+#include "sim/families.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/geometry.hpp"
+#include "sim/uniform_grid.hpp"
+#include "spf/math/angles.hpp"
+#include "spf/math/random_stream.hpp"
+
+namespace spf::sim {
+namespace {
+
+constexpr int kMaxTries = 2000;     // within one group of shapes (protocol section 2)
+constexpr int kMaxAttempts = 1000;  // scenes; ours, so that an impossible layout ends with a message
+
+Eigen::Vector2d draw_point(RandomStream& random, double half_width, double half_height) {
+  const double x = random.uniform(-half_width, half_width);
+  const double y = random.uniform(-half_height, half_height);
+  return {x, y};
+}
+
+Eigen::Vector2d polar(double length, double angle) {
+  return {length * std::cos(angle), length * std::sin(angle)};
+}
+
+RobotTask task_between(const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
+  RobotTask task;
+  const Eigen::Vector2d way = goal - start;
+  task.start = {start, std::atan2(way.y(), way.x())};  // looks where it goes
+  task.goal_world = goal;
+  return task;
+}
+
+/// Draws `count` things; `draw_one` returns false when its draw is rejected. False: more than kMaxTries
+/// tries.
+template <class DrawOne>
+bool draw_group(int count, DrawOne&& draw_one) {
+  int tries = 0;
+  for (int done = 0; done < count;) {
+    if (++tries > kMaxTries) return false;
+    if (draw_one()) ++done;
+  }
+  return true;
+}
+
+// ---- T2, T2-hard, F7
+// -----------------------------------------------------------------------------------------------
+
+void draw_circle_of_robots(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  const double phase = random.uniform(0.0, 2.0 * kPi);
+  const double degree = kPi / 180.0;
+  for (int i = 0; i < layout.robots; ++i) {
+    const double angle = phase + 2.0 * kPi * i / layout.robots + random.uniform(-5.0 * degree, 5.0 * degree);
+    const Eigen::Vector2d start = polar(layout.circle_radius, angle);
+    scenario.robots.push_back(task_between(start, -start));
+  }
+}
+
+bool draw_square(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  constexpr double kGap = 1.2;     // [m] between squares
+  constexpr double kEndGap = 2.0;  // [m] from a start or goal
+  const Eigen::Vector2d center = draw_point(random, layout.squares_within, layout.squares_within);
+  const Box box = square(center, random.uniform(layout.square_side_low, layout.square_side_high));
+  for (const Box& other : scenario.boxes)
+    if (distance_between_boxes(box, other) < kGap) return false;
+  for (const RobotTask& task : scenario.robots)
+    if (distance_to_box(task.start.position_world, box) < kEndGap ||
+        distance_to_box(task.goal_world, box) < kEndGap)
+      return false;
+  scenario.boxes.push_back(box);
+  return true;
+}
+
+/// The radius is drawn last, and only where the family varies it.
+double draw_radius(RandomStream& random, const LayoutParameters& layout) {
+  if (layout.disc_radius_low >= layout.disc_radius_high) return layout.disc_radius_low;
+  return random.uniform(layout.disc_radius_low, layout.disc_radius_high);
+}
+
+bool draw_disc(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  constexpr double kStartGap = 3.0;  // [m] centre to start
+  constexpr double kBoxGap = 0.2;    // [m] surface to square: 0.6 m from the centre in T2
+  constexpr double kDiscGap = 1.0;   // [m] centre to centre
+  ObstacleState disc;
+  disc.position_world = draw_point(random, layout.discs_within, layout.discs_within);
+  const double speed = random.uniform(layout.disc_speed_low, layout.disc_speed_high);
+  disc.velocity_world = polar(speed, random.uniform(0.0, 2.0 * kPi));
+  disc.radius = draw_radius(random, layout);
+  for (const RobotTask& task : scenario.robots)
+    if ((disc.position_world - task.start.position_world).norm() < kStartGap) return false;
+  for (const Box& box : scenario.boxes)
+    if (distance_to_box(disc.position_world, box) < disc.radius + kBoxGap) return false;
+  for (const ObstacleState& other : scenario.discs)
+    if ((disc.position_world - other.position_world).norm() < kDiscGap) return false;
+  scenario.discs.push_back(disc);
+  return true;
+}
+
+bool draw_crossing(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  scenario.border = square(Eigen::Vector2d::Zero(), 2.0 * layout.half_field);
+  draw_circle_of_robots(random, layout, scenario);
+  return draw_group(layout.squares, [&] { return draw_square(random, layout, scenario); }) &&
+         draw_group(layout.discs, [&] { return draw_disc(random, layout, scenario); });
+}
+
+// ---- P8
+// ------------------------------------------------------------------------------------------------------------
+
+constexpr double kArenaWidth = 1.374;   // [m] along x, the short side
+constexpr double kArenaLength = 2.432;  // [m] along y
+
+void place_platform(const LayoutParameters& layout, Scenario& scenario) {
+  constexpr double kWallGap = 0.12;  // [m] from the short side's wall to the robots' centres
+  const Eigen::Vector2d half{0.5 * kArenaWidth, 0.5 * kArenaLength};
+  scenario.border = Box{-half, half};
+  for (const double third : {-1.0 / 6.0, 1.0 / 6.0})
+    scenario.seams.push_back({{-half.x(), third * kArenaLength}, {half.x(), third * kArenaLength}});
+  const int below = (layout.robots + 1) / 2;
+  for (int i = 0; i < layout.robots; ++i) {
+    const bool low = i < below;
+    const int column = low ? i : i - below;
+    const int columns = low ? below : layout.robots - below;
+    const double x = kArenaWidth * ((column + 0.5) / columns - 0.5);
+    const double y = (low ? -1.0 : 1.0) * (half.y() - kWallGap);
+    scenario.robots.push_back(task_between({x, y}, {x, -y}));
+  }
+}
+
+bool draw_block(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  constexpr double kGap = 0.16;  // [m] between blocks, and to the walls
+  const Eigen::Vector2d center = draw_point(random, 0.5 * kArenaWidth, layout.squares_within);
+  const Box box = square(center, random.uniform(layout.square_side_low, layout.square_side_high));
+  if (std::min(depth_inside(box.low, *scenario.border), depth_inside(box.high, *scenario.border)) < kGap)
+    return false;
+  for (const Box& other : scenario.boxes)
+    if (distance_between_boxes(box, other) < kGap) return false;
+  scenario.boxes.push_back(box);
+  return true;
+}
+
+bool draw_platform_disc(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  constexpr double kStartGap = 0.3;  // [m] centre to start
+  constexpr double kGap = 0.03;      // [m] surface to block, wall or disc
+  ObstacleState disc;
+  disc.position_world = draw_point(random, 0.5 * kArenaWidth, layout.discs_within);
+  const double speed = random.uniform(layout.disc_speed_low, layout.disc_speed_high);
+  disc.velocity_world = polar(speed, random.uniform(0.0, 2.0 * kPi));
+  disc.radius = draw_radius(random, layout);
+  if (depth_inside(disc.position_world, *scenario.border) < disc.radius + kGap) return false;
+  for (const RobotTask& task : scenario.robots)
+    if ((disc.position_world - task.start.position_world).norm() < kStartGap) return false;
+  for (const Box& box : scenario.boxes)
+    if (distance_to_box(disc.position_world, box) < disc.radius + kGap) return false;
+  for (const ObstacleState& other : scenario.discs)
+    if ((disc.position_world - other.position_world).norm() < disc.radius + other.radius + kGap) return false;
+  scenario.discs.push_back(disc);
+  return true;
+}
+
+bool draw_platform(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  place_platform(layout, scenario);
+  return draw_group(layout.squares, [&] { return draw_block(random, layout, scenario); }) &&
+         draw_group(layout.discs, [&] { return draw_platform_disc(random, layout, scenario); });
+}
+
+// ---- SWAP, FIELD
+// ---------------------------------------------------------------------------------------------------
+
+bool draw_swap(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  const double spacing = 2.0 * kPi / layout.robots;
+  const double radius = layout.circle_per_robot * layout.robots / (2.0 * kPi);
+  for (int i = 0; i < layout.robots; ++i) {
+    const Eigen::Vector2d start = polar(radius, spacing * (i + random.uniform(-0.2, 0.2)));
+    scenario.robots.push_back(task_between(start, -start));
+  }
+  return true;
+}
+
+bool is_free(const Eigen::Vector2d& place, const std::vector<Eigen::Vector2d>& taken, double center_gap) {
+  for (const Eigen::Vector2d& other : taken)
+    if ((place - other).squaredNorm() < center_gap * center_gap) return false;
+  return true;
+}
+
+bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  constexpr double kGap = 1.0;           // [m] between surfaces of starts, of goals, and around pillars
+  constexpr double kNearGoal = 10.0;     // [m]
+  constexpr double kFarGoal = 30.0;      // [m]
+  constexpr double kPillarRadius = 0.5;  // [m]
+  constexpr double kMargin = 1.0;        // [m] between the square of starts and goals and the border
+  const double half = 0.5 * layout.side_per_root * std::sqrt(static_cast<double>(layout.robots));
+  const double center_gap = kGap + 2.0 * scenario.robot.radius;
+  scenario.border = square(Eigen::Vector2d::Zero(), 2.0 * (half + kMargin));
+
+  std::vector<Eigen::Vector2d> starts;
+  std::vector<Eigen::Vector2d> goals;
+  for (int i = 0; i < layout.robots; ++i) {
+    const bool placed =
+        draw_group(1, [&] {  // start and goal together: some starts have no goal in a small field
+          const Eigen::Vector2d start = draw_point(random, half, half);
+          const Eigen::Vector2d goal = draw_point(random, half, half);
+          const double distance = (goal - start).norm();
+          if (distance < kNearGoal || distance > kFarGoal) return false;
+          if (!is_free(start, starts, center_gap) || !is_free(goal, goals, center_gap)) return false;
+          starts.push_back(start);
+          goals.push_back(goal);
+          return true;
+        });
+    if (!placed) return false;
+    scenario.robots.push_back(task_between(starts.back(), goals.back()));
+  }
+  const double end_gap = kGap + kPillarRadius + scenario.robot.radius;
+  std::vector<Eigen::Vector2d> pillars;
+  const int count = static_cast<int>(static_cast<double>(layout.robots) / layout.robots_per_pillar);
+  for (int i = 0; i < count; ++i) {
+    const bool placed = draw_group(1, [&] {
+      const Eigen::Vector2d center = draw_point(random, half, half);
+      if (!is_free(center, starts, end_gap) || !is_free(center, goals, end_gap)) return false;
+      if (!is_free(center, pillars, kGap + 2.0 * kPillarRadius)) return false;
+      pillars.push_back(center);
+      return true;
+    });
+    if (!placed) return false;
+    scenario.pillars.push_back({pillars.back(), kPillarRadius});
+  }
+  return true;
+}
+
+bool draw_scene(Family family, RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
+  switch (family) {
+    case Family::t2:
+    case Family::t2_hard:
+    case Family::f7:
+      return draw_crossing(random, layout, scenario);
+    case Family::p8:
+      return draw_platform(random, layout, scenario);
+    case Family::swap:
+      return draw_swap(random, layout, scenario);
+    case Family::field:
+      return draw_field(random, layout, scenario);
+  }
+  return false;
+}
+
+void make_hard(FamilySetup& setup) {
+  setup.layout.robots = 12;
+  setup.layout.squares = 12;
+  setup.layout.squares_within = 9.0;
+  setup.layout.discs = 10;
+  setup.layout.disc_speed_high = 1.2;
+  setup.layout.disc_radius_low = 0.3;
+  setup.layout.disc_radius_high = 0.6;
+  setup.simulation.noise.speed_limit = 1.2;
+}
+
+void make_platform(FamilySetup& setup) {
+  setup.layout.robots = 8;
+  setup.layout.squares = 8;
+  setup.layout.squares_within = 0.8;
+  setup.layout.square_side_low = 0.05;
+  setup.layout.square_side_high = 0.10;
+  setup.layout.discs = 1;
+  setup.layout.discs_within = 0.8;
+  setup.layout.disc_speed_low = 0.1;
+  setup.layout.disc_speed_high = 0.25;
+  setup.layout.disc_radius_low = setup.layout.disc_radius_high = 0.06;
+  setup.robot.radius = 0.05;
+  setup.robot.max_speed = 0.3;
+  setup.robot.max_acceleration = 0.5;
+  setup.robot.wheel_arm = 0.04;
+  setup.robot.max_wheel_speed = 0.45;
+  setup.robot.mass = 0.6;
+  setup.robot.inertia = 0.0008;
+  setup.robot.wheel_radius = 0.02;
+  setup.robot.max_wheel_torque = 0.005;
+  setup.simulation.noise = {NoiseModel::walk, 0.25, 0.01, 0.25};
+  setup.simulation.sensing.map = MapKnowledge::sensed;
+  setup.simulation.sensing.map_resolution = 0.02;
+  setup.simulation.pose_noise.seam_sigma = 0.02;
+  setup.simulation.trial.arrival_distance = 0.03;
+}
+
+}  // namespace
+
+FamilySetup family_setup(Family family) {
+  FamilySetup setup;
+  setup.family = family;
+  switch (family) {
+    case Family::t2:
+      break;
+    case Family::t2_hard:
+      make_hard(setup);
+      break;
+    case Family::f7:
+      setup.layout.robots = 12;
+      setup.layout.discs = 1;
+      setup.simulation.sensing.map = MapKnowledge::sensed;
+      break;
+    case Family::p8:
+      make_platform(setup);
+      break;
+    case Family::swap:
+      setup.layout.robots = 12;
+      setup.layout.squares = setup.layout.discs = 0;
+      break;
+    case Family::field:
+      setup.layout.robots = 50;
+      setup.layout.squares = setup.layout.discs = 0;
+      setup.simulation.radio.range =
+          20.0;  // two plans' length: what a robot hears must not grow with the fleet
+      break;
+  }
+  return setup;
+}
+
+std::optional<Family> family_of(const std::string& name) {
+  for (const auto& [family, known] : EnumNames<Family>::values)
+    if (name == known) return family;
+  return std::nullopt;
+}
+
+Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) {
+  const FamilySetup checked = validated(setup);
+  const std::uint64_t trial_seed = mix(seed, static_cast<std::uint64_t>(trial));
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    Scenario scenario;
+    scenario.family = enum_name(checked.family);
+    scenario.trial = trial;
+    scenario.seed = seed;
+    scenario.robot = checked.robot;
+    scenario.simulation = checked.simulation;
+    RandomStream random{mix(trial_seed, static_cast<std::uint64_t>(attempt))};
+    if (!draw_scene(checked.family, random, checked.layout, scenario)) continue;
+    return scenario;
+  }
+  throw std::runtime_error{"no scene of family " + std::string{enum_name(checked.family)} + " found in " +
+                           std::to_string(kMaxAttempts) + " attempts: too many shapes for the place"};
+}
+
+}  // namespace spf::sim

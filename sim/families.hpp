@@ -1,0 +1,113 @@
+// Scene generators of the evaluation protocol: every family draws a new scene for every trial, and the same
+// scene for the same (family, seed, trial) on every machine. Frame: world.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "sim/scenario.hpp"
+
+namespace spf::sim {
+
+enum class Family {
+  t2,       ///< five robots cross a field with squares and discs (the paper's Table 2)
+  t2_hard,  ///< the same, crowded
+  f7,       ///< twelve robots, one disc, sensed map (the paper's Fig. 7)
+  p8,       ///< the paper's platform: eight small robots in a walled arena (Fig. 8)
+  swap,     ///< robots on a circle change places
+  field,    ///< equal density at any number of robots
+};
+
+}  // namespace spf::sim
+
+namespace spf {
+template <>
+struct EnumNames<sim::Family> {
+  static constexpr std::array<std::pair<sim::Family, const char*>, 6> values{
+      {{sim::Family::t2, "t2"},
+       {sim::Family::t2_hard, "t2_hard"},
+       {sim::Family::f7, "f7"},
+       {sim::Family::p8, "p8"},
+       {sim::Family::swap, "swap"},
+       {sim::Family::field, "field"}}};
+};
+}  // namespace spf
+
+namespace spf::sim {
+
+/// What a family draws. Every family uses the entries that it has a use for; family_setup() gives their
+/// values.
+struct LayoutParameters {
+  int robots = 5;
+  int squares = 6;
+  int discs = 4;                   ///< moving
+  double half_field = 15.0;        ///< [m] half the side of the border (t2, t2_hard, f7)
+  double circle_radius = 12.5;     ///< [m] of the starts (t2, t2_hard, f7)
+  double squares_within = 7.0;     ///< [m] largest coordinate of a square's centre
+  double square_side_low = 1.0;    ///< [m]
+  double square_side_high = 2.0;   ///< [m]
+  double discs_within = 13.0;      ///< [m] largest coordinate of a disc's centre
+  double disc_speed_low = 0.5;     ///< [m/s]
+  double disc_speed_high = 1.0;    ///< [m/s]
+  double disc_radius_low = 0.4;    ///< [m] drawn only when below disc_radius_high
+  double disc_radius_high = 0.4;   ///< [m]
+  double circle_per_robot = 1.5;   ///< [m] of circumference (swap: 1.5 crowded, 5 wide)
+  double side_per_root = 5.0;      ///< [m] side of the field over the root of the robots (field)
+  double robots_per_pillar = 4.0;  ///< [1] (field)
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("robots", self.robots, "1", Range{1, 10000}, "number of robots");
+    visit("squares", self.squares, "1", Range{0, 200}, "number of static squares");
+    visit("discs", self.discs, "1", Range{0, 200}, "number of moving discs");
+    visit("half_field", self.half_field, "m", Range{1.0, 1000.0}, "half the side of the border");
+    visit("circle_radius", self.circle_radius, "m", Range{0.1, 1000.0}, "radius of the circle of starts");
+    visit("squares_within", self.squares_within, "m", Range{0.0, 1000.0},
+          "largest coordinate of a square's centre");
+    visit("square_side_low", self.square_side_low, "m", Range{0.01, 100.0}, "smallest side of a square");
+    visit("square_side_high", self.square_side_high, "m", Range{0.01, 100.0}, "largest side of a square");
+    visit("discs_within", self.discs_within, "m", Range{0.0, 1000.0},
+          "largest coordinate of a disc's centre");
+    visit("disc_speed_low", self.disc_speed_low, "m/s", Range{0.0, 100.0}, "slowest disc");
+    visit("disc_speed_high", self.disc_speed_high, "m/s", Range{0.0, 100.0}, "fastest disc");
+    visit("disc_radius_low", self.disc_radius_low, "m", Range{0.01, 100.0}, "smallest disc");
+    visit("disc_radius_high", self.disc_radius_high, "m", Range{0.01, 100.0}, "largest disc");
+    visit("circle_per_robot", self.circle_per_robot, "m", Range{0.01, 100.0},
+          "circumference for each robot (swap)");
+    visit("side_per_root", self.side_per_root, "m", Range{1.0, 100.0},
+          "side of the field over root of robots (field)");
+    visit("robots_per_pillar", self.robots_per_pillar, "1", Range{0.1, 1e6},
+          "robots for each static disc (field)");
+  }
+};
+
+/// Everything that fixes a family's trials but the seed and the trial number.
+struct FamilySetup {
+  Family family = Family::t2;
+  LayoutParameters layout;
+  RobotParameters robot;
+  SimulationParameters simulation;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("family", self.family, "generator of the protocol");
+    visit.group("layout", self.layout);
+    visit.group("robot", self.robot);
+    visit.group("simulation", self.simulation);
+  }
+};
+
+inline constexpr std::uint64_t kDefaultSeed = 20240501;
+
+/// The protocol's numbers for a family.
+[[nodiscard]] FamilySetup family_setup(Family family);
+[[nodiscard]] std::optional<Family> family_of(const std::string& name);
+
+/// Draws the scene of one trial. Throws std::invalid_argument when parameters are out of range, and
+/// std::runtime_error when a thousand attempts found no scene (too much for the place).
+[[nodiscard]] Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial);
+
+}  // namespace spf::sim

@@ -1,0 +1,111 @@
+#include "sim/range_sensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/geometry.hpp"
+#include "spf/math/angles.hpp"
+
+namespace spf::sim {
+namespace {
+
+constexpr double kNoReturn = std::numeric_limits<double>::infinity();
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+void append_sides(const Box& box, std::vector<Segment>& segments) {
+  const Eigen::Vector2d upper_left{box.low.x(), box.high.y()};
+  const Eigen::Vector2d lower_right{box.high.x(), box.low.y()};
+  segments.push_back({box.low, lower_right});
+  segments.push_back({lower_right, box.high});
+  segments.push_back({box.high, upper_left});
+  segments.push_back({upper_left, box.low});
+}
+
+}  // namespace
+
+/// One sweep under way; angles of beams in world.
+struct RangeSensor::Sweep {
+  Eigen::Vector2d origin;
+  double first_angle;  // [rad] of beam 0, in world
+  double increment;    // [rad]
+  std::vector<double>& ranges;
+
+  /// Calls visit(range, direction) for every beam in the arc [from, from + span], span >= 0, and for one more
+  /// on either side, so that rounding loses none: the exact test follows.
+  template <class Visit>
+  void visit_arc(double from, double span, Visit&& visit) {
+    const auto count = static_cast<long>(ranges.size());
+    const long low = static_cast<long>(std::floor((from - first_angle) / increment)) - 1;
+    const long high = static_cast<long>(std::ceil((from + span - first_angle) / increment)) + 1;
+    const long last = std::min(high, low + count - 1);
+    for (long beam = low; beam <= last; ++beam) {
+      const long index = ((beam % count) + count) % count;
+      const double angle = first_angle + static_cast<double>(index) * increment;
+      visit(ranges[static_cast<std::size_t>(index)], Eigen::Vector2d{std::cos(angle), std::sin(angle)});
+    }
+  }
+};
+
+RangeSensor::RangeSensor(const Scenario& scenario)
+    : beams_{scenario.simulation.sensing.beams},
+      range_{scenario.simulation.sensing.range},
+      segments_{scenario.walls},
+      pillars_{scenario.pillars} {
+  for (const Box& box : scenario.boxes) append_sides(box, segments_);
+  if (scenario.border) append_sides(*scenario.border, segments_);
+}
+
+void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& discs, RangeScan& scan) const {
+  scan.angle_min = -kPi;
+  scan.angle_increment = 2.0 * kPi / beams_;
+  scan.max_range = range_;
+  scan.ranges.assign(static_cast<std::size_t>(beams_), kNoReturn);
+  Sweep sweep{pose_world.position_world, pose_world.heading + scan.angle_min, scan.angle_increment,
+              scan.ranges};
+  for (const Segment& segment : segments_) cast_segment(segment, sweep);
+  for (const Pillar& pillar : pillars_) cast_disc(pillar.center, pillar.radius, sweep);
+  for (const SeenDisc& disc : discs) cast_disc(disc.position_world, disc.radius, sweep);
+}
+
+void RangeSensor::cast_segment(const Segment& segment, Sweep& sweep) const {
+  if (distance_to_segment(sweep.origin, segment) > range_) return;
+  const Eigen::Vector2d from = segment.from - sweep.origin;
+  const Eigen::Vector2d to = segment.to - sweep.origin;
+  const double turn = std::atan2(cross(from, to), from.dot(to));  // less than half a turn
+  const Eigen::Vector2d& first = turn >= 0.0 ? from : to;
+  const Eigen::Vector2d along = segment.to - segment.from;
+  sweep.visit_arc(std::atan2(first.y(), first.x()), std::abs(turn),
+                  [&](double& range, const Eigen::Vector2d& beam) {
+                    // origin + s beam = segment.from + share * along
+                    const double denominator = cross(beam, along);
+                    if (denominator == 0.0) return;  // parallel: the neighbouring sides or beams see it
+                    const double distance = cross(from, along) / denominator;
+                    const double share = cross(from, beam) / denominator;
+                    if (distance >= 0.0 && distance <= range_ && share >= 0.0 && share <= 1.0)
+                      range = std::min(range, distance);
+                  });
+}
+
+void RangeSensor::cast_disc(const Eigen::Vector2d& center, double radius, Sweep& sweep) const {
+  const Eigen::Vector2d way = center - sweep.origin;
+  const double distance = way.norm();
+  if (distance - radius > range_) return;
+  const bool inside = distance <= radius;
+  const double half_span = inside ? kPi : std::asin(radius / distance);
+  const double middle = distance > 0.0 ? std::atan2(way.y(), way.x()) : 0.0;
+  sweep.visit_arc(middle - half_span, 2.0 * half_span, [&](double& range, const Eigen::Vector2d& beam) {
+    const double along = way.dot(beam);
+    const double aside = cross(beam, way);
+    const double squared_half_chord = radius * radius - aside * aside;
+    if (squared_half_chord < 0.0) return;
+    const double half_chord = std::sqrt(squared_half_chord);
+    const double hit = inside ? along + half_chord : along - half_chord;
+    if (hit >= 0.0 && hit <= range_) range = std::min(range, hit);
+  });
+}
+
+}  // namespace spf::sim

@@ -1,0 +1,40 @@
+// A planar range sensor at a robot's centre: exact ray casting against static shapes and discs. Every shape
+// is asked only for the beams that its angle as seen from the sensor spans. Frame: world; beams in the
+// sensor's body frame.
+#pragma once
+
+#include <vector>
+
+#include "sim/scenario.hpp"
+#include "spf/world/observation.hpp"
+
+namespace spf::sim {
+
+/// A disc that blocks beams: a moving obstacle or another robot.
+struct SeenDisc {
+  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
+  double radius = 0.0;                                       ///< [m]
+};
+
+class RangeSensor {
+ public:
+  /// The scenario's static shapes (the border's sides are walls), its number of beams and range.
+  explicit RangeSensor(const Scenario& scenario);
+
+  /// One sweep from `pose_world` into `scan`, whose memory is used again. Beam i points at -pi + i * 2 pi /
+  /// beams in the body frame. A sensor inside a shape sees that shape's far side. Beams without return read
+  /// infinity.
+  void sweep(const Pose2& pose_world, const std::vector<SeenDisc>& discs, RangeScan& scan) const;
+
+ private:
+  struct Sweep;
+  void cast_segment(const Segment& segment, Sweep& sweep) const;
+  void cast_disc(const Eigen::Vector2d& center, double radius, Sweep& sweep) const;
+
+  int beams_;
+  double range_;                   // [m]
+  std::vector<Segment> segments_;  // walls, sides of boxes and of the border
+  std::vector<Pillar> pillars_;
+};
+
+}  // namespace spf::sim

@@ -1,0 +1,163 @@
+#include "sim/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "sim/geometry.hpp"
+#include "sim/uniform_grid.hpp"
+#include "spf/math/random_stream.hpp"
+
+namespace spf::sim {
+namespace {
+
+std::string entry(const char* list, std::size_t index, const char* member = "") {
+  return std::string{list} + "[" + std::to_string(index) + "]" + member;
+}
+
+/// Collects problems as sentences with the numbers in them.
+class Report {
+ public:
+  template <class... Parts>
+  void add(std::string where, const Parts&... parts) {
+    std::ostringstream sentence;
+    (sentence << ... << parts);
+    found_.push_back({std::move(where), sentence.str()});
+  }
+  void require_finite(const std::string& where, const Eigen::Vector2d& value) {
+    if (!value.allFinite()) add(where, "(", value.x(), ", ", value.y(), ") must be finite");
+  }
+  void require_radius(const std::string& where, double radius) {
+    if (!(radius > 0.0 && radius <= 1000.0)) add(where, "radius ", radius, " m must lie in (0, 1000]");
+  }
+  [[nodiscard]] std::vector<ScenarioProblem> take() { return std::move(found_); }
+
+ private:
+  std::vector<ScenarioProblem> found_;
+};
+
+void check_box(Report& report, const std::string& where, const Box& box) {
+  report.require_finite(where, box.low);
+  report.require_finite(where, box.high);
+  if ((box.low.array() >= box.high.array()).any())
+    report.add(where, "low corner (", box.low.x(), ", ", box.low.y(), ") must lie below the high corner (",
+               box.high.x(), ", ", box.high.y(), ")");
+}
+
+void check_shapes(Report& report, const Scenario& scenario) {
+  if (scenario.border) check_box(report, "border", *scenario.border);
+  for (std::size_t i = 0; i < scenario.boxes.size(); ++i)
+    check_box(report, entry("boxes", i), scenario.boxes[i]);
+  for (std::size_t i = 0; i < scenario.pillars.size(); ++i) {
+    report.require_finite(entry("pillars", i), scenario.pillars[i].center);
+    report.require_radius(entry("pillars", i), scenario.pillars[i].radius);
+  }
+  for (std::size_t i = 0; i < scenario.walls.size(); ++i) {
+    report.require_finite(entry("walls", i), scenario.walls[i].from);
+    report.require_finite(entry("walls", i), scenario.walls[i].to);
+  }
+  for (std::size_t i = 0; i < scenario.discs.size(); ++i) {
+    report.require_finite(entry("discs", i, ".position"), scenario.discs[i].position_world);
+    report.require_finite(entry("discs", i, ".velocity"), scenario.discs[i].velocity_world);
+    report.require_radius(entry("discs", i), scenario.discs[i].radius);
+  }
+  if (!scenario.crowd.empty()) report.require_radius("crowd", scenario.crowd_radius);
+  for (std::size_t i = 0; i < scenario.crowd.size(); ++i) {
+    report.require_finite(entry("crowd", i), scenario.crowd[i].position_world);
+    if (!std::isfinite(scenario.crowd[i].time)) report.add(entry("crowd", i), "time must be finite");
+    if (i > 0 && scenario.crowd[i].time < scenario.crowd[i - 1].time)
+      report.add(entry("crowd", i), "samples must be sorted by time");
+  }
+}
+
+/// A robot's centre must stay its radius away from everything static.
+void check_place(Report& report, const std::string& where, const Eigen::Vector2d& place,
+                 const Scenario& scenario) {
+  report.require_finite(where, place);
+  if (!place.allFinite()) return;
+  const double radius = scenario.robot.radius;
+  if (scenario.border && depth_inside(place, *scenario.border) < radius)
+    report.add(where, "(", place.x(), ", ", place.y(), ") must lie inside the border by the radius ", radius,
+               " m");
+  const auto require_gap = [&](const std::string& what, double distance) {
+    if (distance < radius)
+      report.add(where, "is ", distance, " m from ", what, ", less than the radius ", radius, " m");
+  };
+  for (std::size_t i = 0; i < scenario.boxes.size(); ++i)
+    require_gap(entry("boxes", i), distance_to_box(place, scenario.boxes[i]));
+  for (std::size_t i = 0; i < scenario.pillars.size(); ++i)
+    require_gap(entry("pillars", i),
+                (place - scenario.pillars[i].center).norm() - scenario.pillars[i].radius);
+  for (std::size_t i = 0; i < scenario.walls.size(); ++i)
+    require_gap(entry("walls", i), distance_to_segment(place, scenario.walls[i]));
+}
+
+void check_robots(Report& report, const Scenario& scenario) {
+  if (scenario.robots.empty()) report.add("robots", "at least one robot is needed");
+  std::vector<Eigen::Vector2d> starts;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const RobotTask& task = scenario.robots[i];
+    check_place(report, entry("robots", i, ".start"), task.start.position_world, scenario);
+    check_place(report, entry("robots", i, ".goal"), task.goal_world, scenario);
+    if (!std::isfinite(task.start.heading))
+      report.add(entry("robots", i, ".start"), "heading must be finite");
+    if (task.goal_heading && !std::isfinite(*task.goal_heading))
+      report.add(entry("robots", i, ".goal"), "heading must be finite");
+    if (!task.start.position_world.allFinite()) continue;
+    for (std::size_t d = 0; d < scenario.discs.size(); ++d) {
+      const double gap = (task.start.position_world - scenario.discs[d].position_world).norm();
+      if (gap < scenario.robot.radius + scenario.discs[d].radius)
+        report.add(entry("robots", i, ".start"), "is inside ", entry("discs", d), ": centres ", gap,
+                   " m apart");
+    }
+    starts.push_back(task.start.position_world);
+  }
+  if (starts.size() != scenario.robots.size()) return;  // not finite: indices below would not fit
+  const double sum = 2.0 * scenario.robot.radius;
+  UniformGrid grid{std::max(sum, 1e-3)};
+  grid.assign(starts);
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    grid.visit(starts[i], sum, [&](int other) {
+      const std::size_t j = static_cast<std::size_t>(other);
+      const double gap = (starts[i] - starts[j]).norm();
+      if (j < i && gap < sum)
+        report.add(entry("robots", i, ".start"), "is inside ", entry("robots", j), ": centres ", gap,
+                   " m apart");
+    });
+}
+
+}  // namespace
+
+std::vector<ScenarioProblem> problems_of(const Scenario& scenario) {
+  Report report;
+  for (const std::string& problem : problems(scenario.robot)) report.add("robot", problem);
+  for (const std::string& problem : problems(scenario.simulation)) report.add("simulation", problem);
+  if (std::remainder(scenario.simulation.trial.plant_rate, 10.0) != 0.0)
+    report.add("simulation", "trial.plant_rate = ", scenario.simulation.trial.plant_rate,
+               " [Hz] must be a multiple of 10 Hz");
+  check_shapes(report, scenario);
+  check_robots(report, scenario);
+  return report.take();
+}
+
+double rest_to_rest_time(double distance, double max_speed, double max_acceleration) {
+  if (distance >= max_speed * max_speed / max_acceleration)
+    return distance / max_speed + max_speed / max_acceleration;
+  return 2.0 * std::sqrt(std::max(distance, 0.0) / max_acceleration);
+}
+
+double time_limit_of(const Scenario& scenario) {
+  if (scenario.simulation.trial.time_limit > 0.0) return scenario.simulation.trial.time_limit;
+  double slowest = 0.0;
+  for (const RobotTask& task : scenario.robots)
+    slowest = std::max(slowest, rest_to_rest_time((task.goal_world - task.start.position_world).norm(),
+                                                  scenario.robot.max_speed, scenario.robot.max_acceleration));
+  return std::max(120.0, 4.0 * slowest);
+}
+
+std::uint64_t stream_seed(const Scenario& scenario, StreamRole role, std::uint64_t index) {
+  const std::uint64_t trial = mix(scenario.seed, static_cast<std::uint64_t>(scenario.trial));
+  return mix(mix(trial, static_cast<std::uint64_t>(role)), index);
+}
+
+}  // namespace spf::sim

@@ -1,0 +1,99 @@
+// Ground truth of one trial: the place, what stands and moves in it, the robots and their tasks. Frame:
+// world, SI.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/simulation_parameters.hpp"
+#include "spf/math/pose2.hpp"
+#include "spf/robot/robot_parameters.hpp"
+#include "spf/world/obstacle_state.hpp"
+
+namespace spf::sim {
+
+/// Axis-aligned rectangle.
+struct Box {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();   ///< [m] lower left corner
+  Eigen::Vector2d high = Eigen::Vector2d::Zero();  ///< [m] upper right corner
+};
+
+/// Static disc.
+struct Pillar {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< [m]
+  double radius = 0.5;                               ///< [m]
+};
+
+/// Line segment: a thin wall, or a seam between two fields of view.
+struct Segment {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< [m]
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< [m]
+};
+
+struct RobotTask {
+  Pose2 start;
+  Eigen::Vector2d goal_world = Eigen::Vector2d::Zero();  ///< [m]
+  std::optional<double> goal_heading;                    ///< [rad], free when absent
+};
+
+/// One sample of a recorded crowd: a person is a disc that moves linearly between its samples, present from
+/// its first to its last, and does not react.
+struct CrowdSample {
+  double time = 0.0;  ///< [s]
+  int id = 0;
+  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
+};
+
+struct Scenario {
+  std::string family = "custom";
+  int trial = 0;  ///< k of the protocol
+  std::uint64_t seed = 20240501;
+
+  /// Bounds discs and robots: a centre stays inside by its radius; a robot that leaves has hit the border.
+  std::optional<Box> border;
+  std::vector<Box> boxes;
+  std::vector<Pillar> pillars;
+  std::vector<Segment> walls;
+  std::vector<Segment> seams;        ///< crossing one makes the observed pose jump (PoseNoiseParameters)
+  std::vector<ObstacleState> discs;  ///< moving obstacles at t = 0, ids 0, 1, 2, ...
+  std::vector<CrowdSample> crowd;    ///< recorded people, sorted by time
+  double crowd_radius = 0.25;        ///< [m] of each person
+  std::vector<RobotTask> robots;
+  RobotParameters robot;  ///< all robots of a fleet are alike
+  SimulationParameters simulation;
+};
+
+/// A rule that a scenario breaks, and the entry that breaks it ("robots[3].start").
+struct ScenarioProblem {
+  std::string where;
+  std::string what;
+};
+
+/// Everything that makes the scenario unusable: numbers out of range or not finite, boxes inside out, robots
+/// or goals inside an obstacle, each other or beyond the border. Empty when it can run.
+[[nodiscard]] std::vector<ScenarioProblem> problems_of(const Scenario& scenario);
+
+/// Time of the fastest rest-to-rest motion over a straight distance [s]: a trapezoid of speed.
+[[nodiscard]] double rest_to_rest_time(double distance, double max_speed, double max_acceleration);
+
+/// The trial's time limit [s]: as set, or max(120 s, 4 times the slowest robot's obstacle-free time)
+/// (protocol 5).
+[[nodiscard]] double time_limit_of(const Scenario& scenario);
+
+/// What a random stream is for. Streams of different roles or indices are independent, and none is the
+/// scene's or the obstacles' (protocol section 1).
+enum class StreamRole : std::uint64_t {
+  pose = 0x504F5345'00000000ULL,
+  seam = 0x5345414D'00000000ULL,
+  detection = 0x44455445'00000000ULL,
+  scan = 0x5343414E'00000000ULL,
+  radio = 0x52414449'00000000ULL,
+};
+/// Seed of the stream of one role and index in a trial.
+[[nodiscard]] std::uint64_t stream_seed(const Scenario& scenario, StreamRole role, std::uint64_t index);
+
+}  // namespace spf::sim
