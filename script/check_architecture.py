@@ -3,7 +3,7 @@
 
 Arrows: an #include from the repository's root must be covered by the DEPENDS of the file's room, directly or through
 other rooms (in tests by TEST_DEPENDS too); rooms form no circle; a core room uses core rooms and Eigen alone.
-Purity: the sources of spf/ (tests and spf/testing apart) hold no file, stream, clock, thread, outside randomness,
+Purity: the sources of spf/ (tests, which are *_test.cpp and *_test.hpp, and spf/testing apart) hold no file, stream, clock, thread, outside randomness,
 changeable static or global, and no ROS.
 Prints FILE:LINE: sentence for each breach; exit status 1 if there is one.
 """
@@ -148,7 +148,7 @@ def owner_of(rooms, file):
 
 
 def check_includes(rooms, room, file, code):
-    is_test = file.name.endswith("_test.cpp")
+    is_test = file.stem.endswith("_test")
     allowed = reachable(rooms, room.name, with_tests=is_test)
     tops = {other.folder.parts[0] for other in rooms.values()}
     for include in INCLUDE.finditer(code):
@@ -199,7 +199,7 @@ def check(root):
             continue
         code = without_comments_and_strings((root / file).read_text(encoding="utf-8"))
         breaches += check_includes(rooms, room, file, code)
-        if room.is_pure and not file.name.endswith("_test.cpp"):
+        if room.is_pure and not file.stem.endswith("_test"):
             breaches += check_purity(file, code)
         if file.suffix == ".hpp" and "#pragma once" not in code:
             breaches.append(f"{file}:1: a header without #pragma once")

@@ -129,8 +129,8 @@ class Purity(Copy):
                 self.assert_passes(PURE, text)
 
     def test_tests_and_hosts_are_free(self):
-        text = "#include <chrono>\n#include <iostream>\nstatic int calls = 0;\n"
-        for file in ["spf/math/probe_test.cpp", "spf/testing/probe.cpp"]:
+        text = "#pragma once\n#include <chrono>\n#include <IpTNLP.hpp>\nstatic int calls = 0;\n"
+        for file in ["spf/math/probe_test.cpp", "spf/math/oracle_test.hpp", "spf/testing/probe.cpp"]:
             with self.subTest(file=file):
                 self.assert_passes(file, text)
 
