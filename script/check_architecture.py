@@ -7,6 +7,8 @@ Purity: the sources of spf/ (tests, which are *_test.cpp and *_test.hpp, and spf
 changeable static or global, and no ROS.
 Prints FILE:LINE: sentence for each breach; exit status 1 if there is one.
 """
+import functools
+import os
 import re
 import sys
 from pathlib import Path
@@ -59,10 +61,13 @@ class Room:
 
 
 def project_files(root):
-    for path in sorted(root.rglob("*")):
-        relative = path.relative_to(root)
-        if path.is_file() and not SKIPPED_FOLDERS & set(relative.parts):
-            yield relative
+    """Paths from the root of all files that can matter, in order."""
+    found = []
+    for folder, subfolders, names in os.walk(root):
+        subfolders[:] = [name for name in subfolders if name not in SKIPPED_FOLDERS]
+        found += [Path(folder, name).relative_to(root) for name in names
+                  if name == "CMakeLists.txt" or Path(name).suffix in SOURCE_SUFFIXES]
+    return sorted(found)
 
 
 def read_rooms(root, files):
@@ -102,6 +107,7 @@ def reachable(rooms, name, with_tests):
     return found
 
 
+@functools.lru_cache(maxsize=None)
 def without_comments_and_strings(text):
     """The same text with both blanked out, so that places stay where they were; include lines keep their names."""
     token = re.compile(
@@ -143,8 +149,12 @@ def check_rooms(rooms):
 
 
 def owner_of(rooms, file):
-    owners = [room for room in rooms.values() if room.folder in file.parents]
-    return max(owners, key=lambda room: len(room.folder.parts), default=None)
+    """The room of the nearest folder above the file that is one."""
+    by_folder = {str(room.folder): room for room in rooms.values()}
+    folder = os.path.dirname(file)
+    while folder and folder not in by_folder:
+        folder = os.path.dirname(folder)
+    return by_folder.get(folder)
 
 
 def check_includes(rooms, room, file, code):
@@ -154,7 +164,7 @@ def check_includes(rooms, room, file, code):
     for include in INCLUDE.finditer(code):
         where, quote, header = f"{file}:{line_of(code, include.start())}", include.group(1), include.group(2)
         if header.split("/")[0] in tops:
-            target = owner_of(rooms, Path(header))
+            target = owner_of(rooms, header)
             if target is None:
                 yield f"{where}: includes {header}, which lies in no room"
             elif target.name not in allowed:

@@ -16,16 +16,16 @@ PURE = "spf/math/probe.cpp"
 
 
 class Copy(unittest.TestCase):
-    """A scratch copy of the project's rooms, which each test spoils in its own way."""
+    """A scratch copy of the core's rooms, which each test spoils in its own way."""
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
         self.root = Path(scratch.name)
-        for file in check_architecture.project_files(ROOT):
-            if file.name == "CMakeLists.txt" or file.suffix in check_architecture.SOURCE_SUFFIXES:
-                (self.root / file).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy(ROOT / file, self.root / file)
+        for file in check_architecture.project_files(ROOT / "spf"):
+            file = "spf" / file
+            (self.root / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / file, self.root / file)
         self.before = set(check_architecture.check(self.root))
 
     def breaches_of(self, file, text):
