@@ -14,7 +14,7 @@ if(PROJECT_IS_TOP_LEVEL)
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
   install(EXPORT spfTargets NAMESPACE spf:: DESTINATION ${package_dir} COMPONENT development)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/spf/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spf COMPONENT development
-    FILES_MATCHING PATTERN "*.hpp" PATTERN "testing" EXCLUDE PATTERN "*_test.hpp" EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "testing" EXCLUDE PATTERN "test" EXCLUDE PATTERN "*_test.hpp" EXCLUDE)
 
   configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/spfConfig.cmake.in
     ${PROJECT_BINARY_DIR}/spfConfig.cmake INSTALL_DESTINATION ${package_dir})

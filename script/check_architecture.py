@@ -3,7 +3,8 @@
 
 Arrows: an #include from the repository's root must be covered by the DEPENDS of the file's room, directly or through
 other rooms (in tests by TEST_DEPENDS too); rooms form no circle; a core room uses core rooms and Eigen alone.
-Purity: the sources of spf/ (tests, which are *_test.cpp and *_test.hpp, and spf/testing apart) hold no file, stream, clock, thread, outside randomness,
+Purity: the sources of spf/ (spf/testing and tests apart, which are named *_test or lie in a
+folder test) hold no file, stream, clock, thread, outside randomness,
 changeable static or global, and no ROS.
 Prints FILE:LINE: sentence for each breach; exit status 1 if there is one.
 """
@@ -130,6 +131,10 @@ def line_of(text, position):
     return text.count("\n", 0, position) + 1
 
 
+def is_test(file):
+    return file.stem.endswith("_test") or "test" in file.parts
+
+
 def check_rooms(rooms):
     for room in rooms.values():
         where = room.folder / "CMakeLists.txt"
@@ -158,8 +163,7 @@ def owner_of(rooms, file):
 
 
 def check_includes(rooms, room, file, code):
-    is_test = file.stem.endswith("_test")
-    allowed = reachable(rooms, room.name, with_tests=is_test)
+    allowed = reachable(rooms, room.name, with_tests=is_test(file))
     tops = {other.folder.parts[0] for other in rooms.values()}
     for include in INCLUDE.finditer(code):
         where, quote, header = f"{file}:{line_of(code, include.start())}", include.group(1), include.group(2)
@@ -173,7 +177,7 @@ def check_includes(rooms, room, file, code):
                 yield f"{where}: includes <{header}>; the project's own headers stand in quotation marks"
         elif quote == '"':
             yield f'{where}: includes "{header}", which is not written from the root of the repository'
-        elif room.is_pure and not is_test:
+        elif room.is_pure and not is_test(file):
             yield from check_foreign_header(where, header)
 
 
@@ -209,7 +213,7 @@ def check(root):
             continue
         code = without_comments_and_strings((root / file).read_text(encoding="utf-8"))
         breaches += check_includes(rooms, room, file, code)
-        if room.is_pure and not file.stem.endswith("_test"):
+        if room.is_pure and not is_test(file):
             breaches += check_purity(file, code)
         if file.suffix == ".hpp" and "#pragma once" not in code:
             breaches.append(f"{file}:1: a header without #pragma once")

@@ -130,7 +130,8 @@ class Purity(Copy):
 
     def test_tests_and_hosts_are_free(self):
         text = "#pragma once\n#include <chrono>\n#include <IpTNLP.hpp>\nstatic int calls = 0;\n"
-        for file in ["spf/math/probe_test.cpp", "spf/math/oracle_test.hpp", "spf/testing/probe.cpp"]:
+        for file in ["spf/math/probe_test.cpp", "spf/math/oracle_test.hpp", "spf/math/test/probe.hpp",
+                     "spf/testing/probe.cpp"]:
             with self.subTest(file=file):
                 self.assert_passes(file, text)
 
