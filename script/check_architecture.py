@@ -3,9 +3,8 @@
 
 Arrows: an #include from the repository's root must be covered by the DEPENDS of the file's room, directly or through
 other rooms (in tests by TEST_DEPENDS too); rooms form no circle; a core room uses core rooms and Eigen alone.
-Purity: the sources of spf/ (spf/testing and tests apart, which are named *_test or lie in a
-folder test) hold no file, stream, clock, thread, outside randomness,
-changeable static or global, and no ROS.
+Purity: the sources of spf/ hold no file, stream, clock, thread, outside randomness, changeable static or global, and
+no ROS. spf/testing is free of this, and so are tests: what is named *_test or lies in a folder called test.
 Prints FILE:LINE: sentence for each breach; exit status 1 if there is one.
 """
 import functools
