@@ -1,0 +1,181 @@
+#include "spf/planning/guide_path.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace spf {
+/// The four nodes around a place and their weights.
+struct GuidePath::Cell {
+  Eigen::Vector2d local;  // [m] from the window's origin
+  std::array<std::int32_t, 4> node;
+  std::array<double, 4> weight;
+  Eigen::Vector2d slope[4];  // of the weights [1/m]
+  double outside;            // [m] distance to the window
+  Eigen::Vector2d outward;   // unit vector away from the window, zero inside
+};
+
+GuidePath::GuidePath(const GuidePathParameters& parameters) : parameters_{validated(parameters)} {}
+
+Eigen::Vector2d GuidePath::place(std::int32_t index) const {
+  return window_.resolution * Eigen::Vector2d{index % window_.width, index / window_.width};
+}
+
+double GuidePath::cost_at(const Node& node, const Eigen::Vector2d& local) const {
+  const double dx = local.x() - static_cast<double>(node.root_x);
+  const double dy = local.y() - static_cast<double>(node.root_y);
+  return static_cast<double>(node.root_cost) + std::sqrt(dx * dx + dy * dy);
+}
+
+float GuidePath::own_cost(std::int32_t index) const {
+  return static_cast<float>(cost_at(nodes_[static_cast<std::size_t>(index)], place(index)));
+}
+
+// ---- queries
+// --------------------------------------------------------------------------------------------------
+
+GuidePath::Cell GuidePath::cell_of(const Eigen::Vector2d& position_world) const {
+  Cell cell;
+  const Eigen::Vector2d asked = position_world - window_.origin_world;
+  const double width = window_.resolution * (window_.width - 1);
+  const double height = window_.resolution * (window_.height - 1);
+  cell.local = {std::min(std::max(asked.x(), 0.0), width), std::min(std::max(asked.y(), 0.0), height)};
+  const Eigen::Vector2d beyond = asked - cell.local;
+  cell.outside = beyond.norm();
+  cell.outward = cell.outside > 0.0 ? Eigen::Vector2d{beyond / cell.outside} : Eigen::Vector2d{0.0, 0.0};
+  const double per_metre = 1.0 / window_.resolution;
+  const double u = cell.local.x() * per_metre;
+  const double v = cell.local.y() * per_metre;
+  const int i = std::min(static_cast<int>(u), window_.width - 2);
+  const int j = std::min(static_cast<int>(v), window_.height - 2);
+  const double x = u - i;
+  const double y = v - j;
+  const std::int32_t first = j * window_.width + i;
+  cell.node = {first, first + 1, first + window_.width, first + window_.width + 1};
+  cell.weight = {(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y};
+  cell.slope[0] = per_metre * Eigen::Vector2d{y - 1.0, x - 1.0};
+  cell.slope[1] = per_metre * Eigen::Vector2d{1.0 - y, -x};
+  cell.slope[2] = per_metre * Eigen::Vector2d{-y, 1.0 - x};
+  cell.slope[3] = per_metre * Eigen::Vector2d{y, x};
+  return cell;
+}
+
+double GuidePath::cost_to_go(const Eigen::Vector2d& position_world) const {
+  const Cell cell = cell_of(position_world);
+  double cost = cell.outside;
+  for (std::size_t k = 0; k < 4; ++k) {
+    cost += cell.weight[k] * cost_at(nodes_[static_cast<std::size_t>(cell.node[k])], cell.local);
+  }
+  return cost;
+}
+
+Eigen::Vector2d GuidePath::cost_gradient(const Eigen::Vector2d& position_world) const {
+  const Cell cell = cell_of(position_world);
+  if (cell.outside > 0.0) return cell.outward;
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Node& node = nodes_[static_cast<std::size_t>(cell.node[k])];
+    gradient += cost_at(node, cell.local) * cell.slope[k];
+    const Eigen::Vector2d from_root = cell.local - Eigen::Vector2d{node.root_x, node.root_y};
+    const double length = from_root.norm();
+    if (length > 0.0) gradient += cell.weight[k] / length * from_root;
+  }
+  return gradient;
+}
+
+Eigen::Vector2d GuidePath::direction(const Eigen::Vector2d& position_world) const {
+  constexpr double kArrived = 1e-4;  // [m] roots are kept as floats
+  if ((position_world - goal_used_).squaredNorm() < kArrived * kArrived) return {0.0, 0.0};
+  const Eigen::Vector2d gradient = cost_gradient(position_world);
+  const double length = gradient.norm();
+  return length > 1e-9 ? Eigen::Vector2d{-gradient / length} : Eigen::Vector2d{0.0, 0.0};
+}
+
+std::int32_t GuidePath::best_corner(const Cell& cell) const {
+  std::int32_t best = cell.node[0];
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const std::int32_t index : cell.node) {
+    const double cost = (cell.local - place(index)).norm() + static_cast<double>(own_cost(index));
+    if (cost < lowest) {
+      lowest = cost;
+      best = index;
+    }
+  }
+  return best;
+}
+
+// Calls visit(place in the window) for the place itself and every corner until visit returns false.
+template <class Visit>
+void GuidePath::walk(const Eigen::Vector2d& position_world, const Visit& visit) const {
+  const Cell cell = cell_of(position_world);
+  if (!visit(Eigen::Vector2d{position_world - window_.origin_world})) return;
+  if (cell.outside > 0.0 && !visit(cell.local)) return;
+  const std::int32_t corner = best_corner(cell);
+  const auto parent_of = [this](std::int32_t index) {
+    return nodes_[static_cast<std::size_t>(index)].parent;
+  };
+  const bool agreed = std::all_of(cell.node.begin(), cell.node.end(),
+                                  [&](std::int32_t index) { return parent_of(index) == parent_of(corner); });
+  // Where the four nodes see different corners, the straight line from here to one of them may clip an edge.
+  const Node& first = nodes_[static_cast<std::size_t>(corner)];
+  if (!agreed && !on_blocked_ground(first) && !visit(place(corner))) return;
+  std::int32_t index = corner;
+  if (on_blocked_ground(first) && first.parent != kBlocked) {
+    index = portal_of(first);
+    if (!visit(place(index))) return;
+  }
+  // Costs fall from root to root, so this ends at the goal.
+  while (index >= 0) {
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    if (!visit(Eigen::Vector2d{node.root_x, node.root_y})) return;
+    index = node.parent;
+  }
+}
+
+Eigen::Vector2d GuidePath::descend(const Eigen::Vector2d& position_world, double distance) const {
+  if (!(distance > 0.0)) return position_world;
+  Eigen::Vector2d here = position_world - window_.origin_world;
+  double remaining = distance;
+  walk(position_world, [&](const Eigen::Vector2d& corner) {
+    const double leg = (corner - here).norm();
+    if (leg >= remaining) {
+      if (leg > 0.0) here += remaining / leg * (corner - here);
+      return false;
+    }
+    remaining -= leg;
+    here = corner;
+    return true;
+  });
+  return window_.origin_world + here;
+}
+
+void GuidePath::way(const Eigen::Vector2d& position_world,
+                    std::vector<Eigen::Vector2d>& corners_world) const {
+  corners_world.clear();
+  walk(position_world, [&](const Eigen::Vector2d& corner) {
+    corners_world.push_back(window_.origin_world + corner);
+    return true;
+  });
+}
+
+bool GuidePath::reachable(const Eigen::Vector2d& position_world) const {
+  const Cell cell = cell_of(position_world);
+  return cell.outside == 0.0 && std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t index) {
+           return !on_blocked_ground(nodes_[static_cast<std::size_t>(index)]);
+         });
+}
+
+bool GuidePath::window_covers(const Eigen::Vector2d& position_world) const {
+  const Eigen::Vector2d local = position_world - window_.origin_world;
+  return local.x() >= 0.0 && local.y() >= 0.0 && local.x() <= window_.resolution * (window_.width - 1) &&
+         local.y() <= window_.resolution * (window_.height - 1);
+}
+
+bool GuidePath::outdated(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
+                         const Eigen::Vector2d& robot_world) const {
+  return !ready() || goal_world != goal_asked_ || map.revision() != map_revision_ ||
+         (!whole_map_ && !window_covers(robot_world));
+}
+
+}  // namespace spf

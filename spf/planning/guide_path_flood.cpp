@@ -1,0 +1,342 @@
+// The flood of GuidePath: lazy Theta* from the goal outwards.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "spf/planning/guide_path.hpp"
+
+namespace spf {
+namespace {
+
+enum NodeState : std::uint8_t {
+  blocked,  // nearer to a surface than the clearance
+  unseen,   // free, not reached yet
+  trusted,  // has a root that may or may not be in view
+  seen,     // has a root in view
+  settled,  // its cost is final
+};
+
+/// Lines of sight may come this much nearer than the clearance, in cells of the map: what bilinear
+/// interpolation and the steps between nodes add and take away.
+constexpr double kSightSlack = 0.25;
+
+template <class Entry>
+bool dearer(const Entry& a, const Entry& b) {
+  return a.cost > b.cost;
+}
+
+}  // namespace
+
+template <class Visit>
+void GuidePath::for_neighbours(std::int32_t index, const Visit& visit) const {
+  const int i = index % window_.width;
+  const int j = index / window_.width;
+  for (int dj = -1; dj <= 1; ++dj) {
+    for (int di = -1; di <= 1; ++di) {
+      if ((di != 0 || dj != 0) && window_.contains(i + di, j + dj)) visit(index + dj * window_.width + di);
+    }
+  }
+}
+
+GuideOutcome GuidePath::update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
+                               const Eigen::Vector2d& robot_world) {
+  nodes_.clear();
+  goal_asked_ = goal_world;
+  goal_used_ = goal_world;
+  map_revision_ = map.revision();
+  outcome_ = GuideOutcome::no_free_goal;
+  if (!goal_world.allFinite() || !robot_world.allFinite()) return outcome_;
+  const std::optional<Eigen::Vector2d> goal = nearest_free_place(map, goal_world);
+  if (!goal) return outcome_;
+  goal_used_ = *goal;
+  const GuideOutcome success = goal_used_ == goal_world ? GuideOutcome::reachable : GuideOutcome::goal_moved;
+
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(parameters_.window_margin);
+  for (const bool everywhere : {false, true}) {
+    const Eigen::Vector2d room = everywhere ? Eigen::Vector2d::Constant(1e9) : margin;
+    set_window(map, goal_used_.cwiseMin(robot_world) - room, goal_used_.cwiseMax(robot_world) + room);
+    mark_free_nodes(map);
+    flood(map);
+    if (flood_reached(robot_world)) {
+      outcome_ = success;
+      break;
+    }
+    outcome_ = GuideOutcome::unreachable;
+    if (whole_map_) break;
+  }
+  extend_over_blocked_ground();
+  return outcome_;
+}
+
+bool GuidePath::flood_reached(const Eigen::Vector2d& position_world) const {
+  if (!window_covers(position_world)) return false;
+  const Eigen::Vector2d local = position_world - window_.origin_world;
+  const int i = std::min(static_cast<int>(local.x() / window_.resolution), window_.width - 2);
+  const int j = std::min(static_cast<int>(local.y() / window_.resolution), window_.height - 2);
+  // From blocked ground (pushed against a wall, a goal of one's own) a way may begin a little farther off.
+  for (int reach = 0; reach <= 2; ++reach) {
+    for (int dj = -reach; dj <= 1 + reach; ++dj) {
+      for (int di = -reach; di <= 1 + reach; ++di) {
+        if (!window_.contains(i + di, j + dj)) continue;
+        if (state_[static_cast<std::size_t>((j + dj) * window_.width + i + di)] == settled) return true;
+      }
+    }
+    const Eigen::Vector2i nearest = window_.nearest_node(position_world);
+    if (state_[static_cast<std::size_t>(nearest.y() * window_.width + nearest.x())] == unseen) return false;
+  }
+  return false;
+}
+
+// Coarse nodes on the part of the map that the rectangle covers.
+void GuidePath::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  const GridFrame& frame = map.frame();
+  const Eigen::Vector2d map_low = frame.origin_world;
+  const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
+  // Two free nodes must not be neighbours across a wall, however thin: their distance stays below 2
+  // clearance.
+  const double safe_spacing =
+      parameters_.clearance > 0.0 ? 1.4 * parameters_.clearance : parameters_.resolution;
+  const double spacing = std::max(std::min(parameters_.resolution, safe_spacing), frame.resolution);
+  // Nodes stand on multiples of the spacing from the map's corner, so that they do not move with the window.
+  const auto snapped = [&](const Eigen::Vector2d& corner) {
+    const Eigen::Vector2d inside = corner.cwiseMax(map_low).cwiseMin(map_high);
+    return Eigen::Vector2d{map_low + spacing * ((inside - map_low) / spacing).array().floor().matrix()};
+  };
+  whole_map_ = (low.array() <= map_low.array()).all() && (high.array() >= map_high.array()).all();
+  const Eigen::Vector2d top = high.cwiseMin(map_high).cwiseMax(map_low);
+  window_ = GridFrame::covering(snapped(low), top.cwiseMax(snapped(low)), spacing);
+  window_.width = std::max(window_.width, 2);
+  window_.height = std::max(window_.height, 2);
+}
+
+void GuidePath::mark_free_nodes(const OccupancyMap& map) {
+  const std::size_t count =
+      static_cast<std::size_t>(window_.width) * static_cast<std::size_t>(window_.height);
+  state_.resize(count);
+  nodes_.assign(count, {0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen});
+  std::size_t index = 0;
+  for (int j = 0; j < window_.height; ++j) {
+    for (int i = 0; i < window_.width; ++i, ++index) {
+      state_[index] = map.distance(window_.node_position(i, j)) >= parameters_.clearance ? unseen : blocked;
+    }
+  }
+}
+
+// Nodes leave the heap in the order of their cost, on trust that their root is in view. Only then is that
+// checked, once a node (lazy); a node that was wrong gets the best root that is, and waits for its turn
+// again.
+void GuidePath::flood(const OccupancyMap& map) {
+  heap_.clear();
+  seed(map);
+  while (!heap_.empty()) {
+    std::pop_heap(heap_.begin(), heap_.end(), dearer<Entry>);
+    const Entry entry = heap_.back();
+    heap_.pop_back();
+    std::uint8_t& state = state_[static_cast<std::size_t>(entry.node)];
+    Node& node = nodes_[static_cast<std::size_t>(entry.node)];
+    if (state == settled || entry.cost > own_cost(entry.node)) continue;  // an older, dearer entry
+    if (state == trusted && !between_seers(entry.node) && !in_view(map, entry.node, node)) {
+      find_root_in_view(map, entry.node);
+      state = seen;
+      push(entry.node);
+      continue;
+    }
+    state = settled;
+    const Node root = node;
+    for_neighbours(entry.node, [&](std::int32_t next) { offer(next, root); });
+  }
+}
+
+// Whether the line from a node to its root passes between two neighbours that see the same root. Nothing fits
+// between their lines of sight: they are less than 1.4 clearance apart and a surface is 2 clearance wide.
+// Saves most looks.
+bool GuidePath::between_seers(std::int32_t index) const {
+  const Node& node = nodes_[static_cast<std::size_t>(index)];
+  const Eigen::Vector2d to_root = Eigen::Vector2d{node.root_x, node.root_y} - place(index);
+  const double x = std::fabs(to_root.x());
+  const double y = std::fabs(to_root.y());
+  if (std::max(x, y) < 2.0 * window_.resolution) return false;
+  const std::int32_t column = to_root.x() > 0.0 ? 1 : -1;
+  const std::int32_t row = to_root.y() > 0.0 ? 1 : -1;
+  const Eigen::Vector2i here{index % window_.width, index / window_.width};
+  const auto sees_same = [&](std::int32_t along_x, std::int32_t along_y) {
+    if (!window_.contains(here.x() + along_x, here.y() + along_y)) return false;
+    const std::int32_t neighbour = index + along_x + along_y * window_.width;
+    const Node& other = nodes_[static_cast<std::size_t>(neighbour)];
+    return state_[static_cast<std::size_t>(neighbour)] == settled && other.parent == node.parent &&
+           other.root_x == node.root_x && other.root_y == node.root_y;
+  };
+  constexpr double kAlong = 1e-6;  // on a row or column the diagonal neighbour does not matter
+  const bool straight = x > y ? sees_same(column, 0) : sees_same(0, row);
+  const bool diagonal = std::min(x, y) < kAlong * std::max(x, y) || sees_same(column, row);
+  return straight && diagonal;
+}
+
+void GuidePath::push(std::int32_t index) {
+  heap_.push_back({own_cost(index), index});
+  std::push_heap(heap_.begin(), heap_.end(), dearer<Entry>);
+}
+
+// The nodes beside the goal, or, in a narrow place, the nearest that see it.
+void GuidePath::seed(const OccupancyMap& map) {
+  const Eigen::Vector2d local = goal_used_ - window_.origin_world;
+  const Node goal{static_cast<float>(local.x()), static_cast<float>(local.y()), 0.0F, kGoal};
+  const Eigen::Vector2i centre = window_.nearest_node(goal_used_);
+  for (int reach = 1; reach <= 4 && heap_.empty(); ++reach) {
+    for (int j = centre.y() - reach; j <= centre.y() + reach; ++j) {
+      for (int i = centre.x() - reach; i <= centre.x() + reach; ++i) {
+        if (!window_.contains(i, j)) continue;
+        const std::int32_t index = j * window_.width + i;
+        if (state_[static_cast<std::size_t>(index)] == unseen && in_view(map, index, goal))
+          offer(index, goal);
+      }
+    }
+  }
+}
+
+void GuidePath::offer(std::int32_t index, const Node& root) {
+  std::uint8_t& state = state_[static_cast<std::size_t>(index)];
+  if (state == blocked || state == settled) return;
+  if (!(static_cast<float>(cost_at(root, place(index))) < own_cost(index))) return;
+  nodes_[static_cast<std::size_t>(index)] = root;
+  state = trusted;
+  push(index);
+}
+
+bool GuidePath::in_view(const OccupancyMap& map, std::int32_t index, const Node& root) const {
+  return sees_place(map, root, place(index));
+}
+
+bool GuidePath::sees_place(const OccupancyMap& map, const Node& root, const Eigen::Vector2d& local) const {
+  const Eigen::Vector2d there = window_.origin_world + Eigen::Vector2d{root.root_x, root.root_y};
+  return map.segment_clear(window_.origin_world + local, there,
+                           parameters_.clearance - kSightSlack * map.frame().resolution);
+}
+
+void GuidePath::find_root_in_view(const OccupancyMap& map, std::int32_t index) {
+  const Eigen::Vector2d here = place(index);
+  Node best{0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen};
+  double lowest = std::numeric_limits<double>::infinity();
+  const auto try_root = [&](const Node& root, bool surely_in_view) {
+    const double cost = cost_at(root, here);
+    if (!(cost < lowest) || !(surely_in_view || in_view(map, index, root))) return;
+    lowest = cost;
+    best = root;
+  };
+  for_neighbours(index, [&](std::int32_t next) {
+    if (state_[static_cast<std::size_t>(next)] != settled) return;
+    try_root(root_at(next, place(next)), true);
+    // The corner itself stands off the nodes, between this one and the last in view, at the clearance.
+    for (const Eigen::Vector2d& near : {place(next), Eigen::Vector2d{0.5 * (place(next) + here)}}) {
+      const Node corner = root_at(next, at_clearance(map, near));
+      const Eigen::Vector2d corner_place{corner.root_x, corner.root_y};
+      if (cost_at(corner, here) < lowest &&
+          sees_place(map, nodes_[static_cast<std::size_t>(next)], corner_place)) {
+        try_root(corner, false);
+      }
+    }
+  });
+  const Node failed = nodes_[static_cast<std::size_t>(index)];
+  std::int32_t last_tried = failed.parent;
+  for_neighbours(index, [&](std::int32_t next) {
+    const Node& root = nodes_[static_cast<std::size_t>(next)];
+    if (state_[static_cast<std::size_t>(next)] != settled || root.parent == failed.parent) return;
+    if (root.parent == last_tried) return;
+    last_tried = root.parent;
+    try_root(root, false);
+  });
+  nodes_[static_cast<std::size_t>(index)] = best;
+}
+
+// A place in view of a node's root as a root of its own.
+GuidePath::Node GuidePath::root_at(std::int32_t index, const Eigen::Vector2d& local) const {
+  const double cost = cost_at(nodes_[static_cast<std::size_t>(index)], local);
+  return {static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(cost), index};
+}
+
+// The nearby place that just keeps the clearance.
+Eigen::Vector2d GuidePath::at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const {
+  Eigen::Vector2d position = window_.origin_world + local;
+  for (int step = 0; step < 2; ++step) {
+    const double excess = map.distance(position) - parameters_.clearance;
+    position -= std::clamp(excess, -window_.resolution, window_.resolution) * map.distance_gradient(position);
+  }
+  return position - window_.origin_world;
+}
+
+// Ground that the flood did not reach belongs to the nearest node that it did (its portal): the root of the
+// portal, and for every metre of depth beyond the first cells a surcharge. Nearest, not cheapest, so that the
+// two faces of a wall keep their own costs.
+void GuidePath::extend_over_blocked_ground() {
+  queue_.clear();
+  portal_.assign(nodes_.size(), kUnseen);
+  const std::int32_t count = static_cast<std::int32_t>(nodes_.size());
+  for (std::int32_t index = 0; index < count; ++index) {
+    if (state_[static_cast<std::size_t>(index)] != settled) continue;
+    portal_[static_cast<std::size_t>(index)] = index;
+    queue_.push_back(index);
+  }
+  if (queue_.empty()) {  // not even the goal's neighbours: straight lines, all of them surcharged
+    const Eigen::Vector2d local = goal_used_ - window_.origin_world;
+    const Node goal{static_cast<float>(local.x()), static_cast<float>(local.y()), 0.0F, kBlocked};
+    std::fill(nodes_.begin(), nodes_.end(), goal);
+    return;
+  }
+  for (std::size_t head = 0; head < queue_.size(); ++head) {
+    const std::int32_t portal = portal_[static_cast<std::size_t>(queue_[head])];
+    const Eigen::Vector2d portal_place = place(portal);
+    for_neighbours(queue_[head], [&](std::int32_t next) {
+      std::int32_t& known = portal_[static_cast<std::size_t>(next)];
+      if (known == next || known == portal) return;
+      const double depth = (place(next) - portal_place).squaredNorm();
+      if (known != kUnseen && depth >= (place(next) - place(known)).squaredNorm()) return;
+      known = portal;
+      queue_.push_back(next);
+    });
+  }
+  const double free_depth = 1.5 * window_.resolution;
+  for (std::int32_t index = 0; index < count; ++index) {
+    const std::int32_t portal = portal_[static_cast<std::size_t>(index)];
+    if (portal == index) continue;
+    Node node = nodes_[static_cast<std::size_t>(portal)];
+    const double depth = std::max((place(index) - place(portal)).norm() - free_depth, 0.0);
+    node.root_cost += static_cast<float>((parameters_.blocked_factor - 1.0) * depth);
+    node.parent = kBlocked - 1 - portal;
+    nodes_[static_cast<std::size_t>(index)] = node;
+  }
+}
+
+// Rings of map nodes around the wanted place; the place itself when it keeps the clearance.
+std::optional<Eigen::Vector2d> GuidePath::nearest_free_place(const OccupancyMap& map,
+                                                             const Eigen::Vector2d& wanted) const {
+  const GridFrame& frame = map.frame();
+  const Eigen::Vector2d high = frame.node_position(frame.width - 1, frame.height - 1);
+  const bool inside =
+      (wanted.array() >= frame.origin_world.array()).all() && (wanted.array() <= high.array()).all();
+  if (inside && map.distance(wanted) >= parameters_.clearance) return wanted;
+  const Eigen::Vector2i centre = frame.nearest_node(wanted);
+  std::optional<Eigen::Vector2d> best;
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto look = [&](int i, int j) {
+    if (!frame.contains(i, j) || map.node_distance(i, j) < parameters_.clearance) return;
+    const double distance = (frame.node_position(i, j) - wanted).norm();
+    if (distance >= nearest) return;
+    nearest = distance;
+    best = frame.node_position(i, j);
+  };
+  const double off_centre = (frame.node_position(centre.x(), centre.y()) - wanted).norm();
+  const int last_ring = std::max(frame.width, frame.height);
+  for (int ring = 0; ring <= last_ring; ++ring) {
+    if (ring * frame.resolution > nearest + off_centre) break;  // no later ring can come nearer
+    for (int k = -ring; k <= ring; ++k) {
+      look(centre.x() + k, centre.y() - ring);
+      look(centre.x() + k, centre.y() + ring);
+      look(centre.x() - ring, centre.y() + k);
+      look(centre.x() + ring, centre.y() + k);
+    }
+  }
+  return best;
+}
+
+}  // namespace spf

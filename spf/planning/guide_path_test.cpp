@@ -1,0 +1,284 @@
+#include "spf/planning/guide_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "spf/math/angles.hpp"
+#include "spf/math/random_stream.hpp"
+
+namespace spf {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Box {
+  Eigen::Vector2d low;
+  Eigen::Vector2d high;
+};
+
+double box_distance(const Eigen::Vector2d& p, const Box& box) {
+  const Eigen::Vector2d beyond = (box.low - p).cwiseMax(p - box.high);
+  const double outside = beyond.cwiseMax(0.0).norm();
+  return outside > 0.0 ? outside : beyond.maxCoeff();
+}
+
+/// Whether a segment keeps the clearance to a box, by ternary search: the distance to a convex set is convex
+/// along a line.
+bool sees(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const std::vector<Box>& boxes,
+          double clearance) {
+  for (const Box& box : boxes) {
+    double low = 0.0;
+    double high = 1.0;
+    for (int k = 0; k < 60; ++k) {
+      const double left = low + (high - low) / 3.0;
+      const double right = high - (high - low) / 3.0;
+      (box_distance(a + left * (b - a), box) < box_distance(a + right * (b - a), box) ? high : low) =
+          box_distance(a + left * (b - a), box) < box_distance(a + right * (b - a), box) ? right : left;
+    }
+    if (box_distance(a + low * (b - a), box) < clearance - 1e-9) return false;
+  }
+  return true;
+}
+
+/// Oracle: shortest ways to a goal by a visibility graph over polygons around the rounded corners. The
+/// polygon's corners stand a little outside the arc, so lengths are too long by at most 1 - cos(pi / 48) =
+/// 0.2 %.
+class VisibilityGraph {
+ public:
+  VisibilityGraph(const std::vector<Box>& boxes, const Eigen::Vector2d& goal, double clearance)
+      : boxes_{boxes}, clearance_{clearance} {
+    points_.push_back(goal);
+    constexpr int kCorners = 12;  // per quarter
+    const double outside = clearance / std::cos(kPi / (4.0 * kCorners));
+    for (const Box& box : boxes)
+      for (int quarter = 0; quarter < 4; ++quarter)
+        for (int k = 0; k <= kCorners; ++k) {
+          const double angle = kPi / 2.0 * (quarter + static_cast<double>(k) / kCorners);
+          const Eigen::Vector2d corner{quarter == 0 || quarter == 3 ? box.high.x() : box.low.x(),
+                                       quarter < 2 ? box.high.y() : box.low.y()};
+          points_.push_back(corner + outside * Eigen::Vector2d{std::cos(angle), std::sin(angle)});
+        }
+    cost_.assign(points_.size(), kInfinity);
+    cost_[0] = 0.0;
+    std::vector<bool> done(points_.size(), false);
+    while (true) {
+      std::size_t best = points_.size();
+      for (std::size_t k = 0; k < points_.size(); ++k)
+        if (!done[k] && cost_[k] < kInfinity && (best == points_.size() || cost_[k] < cost_[best])) best = k;
+      if (best == points_.size()) break;
+      done[best] = true;
+      for (std::size_t k = 0; k < points_.size(); ++k) {
+        const double through = cost_[best] + (points_[k] - points_[best]).norm();
+        if (!done[k] && through < cost_[k] && sees(points_[best], points_[k], boxes_, clearance_))
+          cost_[k] = through;
+      }
+    }
+  }
+
+  [[nodiscard]] double cost(const Eigen::Vector2d& from) const {
+    double lowest = kInfinity;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const double through = cost_[k] + (points_[k] - from).norm();
+      if (through < lowest && sees(from, points_[k], boxes_, clearance_)) lowest = through;
+    }
+    return lowest;
+  }
+
+ private:
+  std::vector<Box> boxes_;
+  double clearance_;
+  std::vector<Eigen::Vector2d> points_;
+  std::vector<double> cost_;
+};
+
+OccupancyMap map_with(const std::vector<Box>& boxes, double half = 8.0) {
+  OccupancyMap map{GridFrame::covering({-half, -half}, {half, half}, 0.1), 2.0};
+  for (const Box& box : boxes) map.add_box(box.low, box.high);
+  return map;
+}
+
+std::vector<Box> draw_boxes(RandomStream& random, int count) {
+  std::vector<Box> boxes;
+  while (static_cast<int>(boxes.size()) < count) {
+    const double x = random.uniform(-6.0, 6.0);
+    const double y = random.uniform(-6.0, 6.0);
+    const double half = random.uniform(0.4, 1.2);
+    boxes.push_back({{x - half, y - half}, {x + half, y + half}});
+  }
+  return boxes;
+}
+
+double nearest_surface(const Eigen::Vector2d& p, const std::vector<Box>& boxes) {
+  double nearest = kInfinity;
+  for (const Box& box : boxes) nearest = std::min(nearest, box_distance(p, box));
+  return nearest;
+}
+
+TEST(GuidePath, MatchesTheVisibilityGraph) {
+  const GuidePathParameters parameters;
+  double sum = 0.0;
+  int compared = 0;
+  int beyond_two_percent = 0;
+  for (std::uint64_t scene = 0; scene < 12; ++scene) {
+    RandomStream random{100 + scene};
+    const std::vector<Box> boxes = draw_boxes(random, 5);
+    Eigen::Vector2d goal;
+    do {
+      goal.x() = random.uniform(-7.0, 7.0);
+      goal.y() = random.uniform(-7.0, 7.0);
+    } while (nearest_surface(goal, boxes) < parameters.clearance + 0.05);
+    const OccupancyMap map = map_with(boxes);
+    GuidePath guide{parameters};
+    (void)guide.update(map, goal, {0.0, 0.0});
+    const VisibilityGraph oracle{boxes, goal, parameters.clearance};
+    for (int k = 0; k < 60; ++k) {
+      const double x = random.uniform(-7.0, 7.0);
+      const Eigen::Vector2d from{x, random.uniform(-7.0, 7.0)};
+      const double expected = oracle.cost(from);
+      if (nearest_surface(from, boxes) < parameters.clearance + 0.05 || !(expected < kInfinity)) continue;
+      const double found = guide.cost_to_go(from);
+      const double error = std::fabs(found - expected) / std::max(expected, 1.0);
+      sum += error;
+      ++compared;
+      if (error > 0.02) ++beyond_two_percent;
+      EXPECT_LT(error, 0.05) << "scene " << scene << " from " << from.transpose() << ": " << found
+                             << " instead of " << expected;
+    }
+  }
+  // Measured: mean 0.15 %, 1.1 % of the places beyond 2 % (behind passages that the coarse nodes find a
+  // little narrower than they are), worst 3.8 %.
+  ASSERT_GT(compared, 300);
+  EXPECT_LT(sum / compared, 0.003);
+  EXPECT_LT(beyond_two_percent, 0.02 * compared);
+}
+
+const std::vector<Box> kUShape = {
+    {{2.0, -2.0}, {2.4, 2.4}}, {{-1.0, 2.0}, {2.4, 2.4}}, {{-1.0, -2.4}, {2.4, -2.0}}};
+
+TEST(GuidePath, IsTheStraightDistanceWhereTheGoalIsInView) {
+  const OccupancyMap map = map_with(kUShape);
+  GuidePath guide{GuidePathParameters{}};
+  const Eigen::Vector2d goal{5.03, -1.17};
+  ASSERT_EQ(guide.update(map, goal, {0.0, 0.0}), GuideOutcome::reachable);
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d{5.0, 3.0}, {3.1, -5.2}, {7.3, 0.4}, goal}) {
+    EXPECT_NEAR(guide.cost_to_go(place), (place - goal).norm(), 1e-5);  // floats of some metres
+    if (place == goal) continue;
+    EXPECT_LT((guide.direction(place) - (goal - place).normalized()).norm(), 1e-4);
+  }
+  EXPECT_EQ(guide.direction(goal).norm(), 0.0);
+}
+
+TEST(GuidePath, LeadsOutOfAUShapeAlongClearGround) {
+  const OccupancyMap map = map_with(kUShape);
+  const GuidePathParameters parameters;
+  GuidePath guide{parameters};
+  const Eigen::Vector2d goal{5.0, 0.5};
+  const Eigen::Vector2d start{1.0, 0.0};
+  ASSERT_EQ(guide.update(map, goal, start), GuideOutcome::reachable);
+  std::vector<Eigen::Vector2d> corners;
+  guide.way(start, corners);
+  ASSERT_GE(corners.size(), 4u);
+  EXPECT_EQ(corners.front(), start);
+  EXPECT_LT((corners.back() - goal).norm(), 1e-5);
+  double length = 0.0;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    length += (corners[k] - corners[k - 1]).norm();
+    // Lines of sight may dip by a quarter of a map cell, steps between nodes by about half of one.
+    EXPECT_GT(map.min_distance_along(corners[k - 1], corners[k], 1.0), parameters.clearance - 0.05);
+  }
+  EXPECT_NEAR(length, guide.cost_to_go(start), 0.02 * length);
+  EXPECT_LT((guide.descend(start, length + 1.0) - goal).norm(), 1e-4);
+  EXPECT_EQ(guide.descend(start, 0.0), start);
+  // Walking on, the way gets shorter by what was walked.
+  for (double walked = 0.5; walked < length; walked += 0.5) {
+    EXPECT_NEAR(guide.cost_to_go(guide.descend(start, walked)), length - walked, 0.03 * length) << walked;
+  }
+}
+
+TEST(GuidePath, CostIsContinuousAndItsGradientExact) {
+  RandomStream random{3};
+  const std::vector<Box> boxes = draw_boxes(random, 6);
+  const OccupancyMap map = map_with(boxes);
+  GuidePath guide{GuidePathParameters{}};
+  ASSERT_NE(guide.update(map, {6.9, 6.9}, {-6.0, -6.0}), GuideOutcome::no_free_goal);
+  const double step = 1e-6;
+  for (int k = 0; k < 2000; ++k) {
+    const double x = random.uniform(-7.5, 7.5);
+    const Eigen::Vector2d place{x, random.uniform(-7.5, 7.5)};
+    Eigen::Vector2d expected;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d shift = step * Eigen::Vector2d::Unit(axis);
+      expected[axis] = (guide.cost_to_go(place + shift) - guide.cost_to_go(place - shift)) / (2.0 * step);
+      // Also across the borders of cells a micrometre never makes a jump; the steepest slopes are those of
+      // blocked ground and of nodes on the two sides of a wall.
+      EXPECT_LT(std::fabs(expected[axis]), 1e3);
+    }
+    const Eigen::Array2d cell = (place - map.frame().origin_world).array() / 0.2;
+    if (((cell - cell.round()).abs() < 1e-4).any()) continue;
+    EXPECT_LT((guide.cost_gradient(place) - expected).norm(), 1e-5 * (1.0 + expected.norm()))
+        << place.transpose();
+  }
+}
+
+TEST(GuidePath, MovesAGoalOnBlockedGroundAndSaysSo) {
+  const OccupancyMap map = map_with({{{-1.0, -1.0}, {1.0, 1.0}}});
+  GuidePath guide{GuidePathParameters{}};
+  EXPECT_EQ(guide.update(map, {0.9, 0.0}, {-4.0, 0.0}), GuideOutcome::goal_moved);
+  EXPECT_EQ(guide.goal_asked(), Eigen::Vector2d(0.9, 0.0));
+  EXPECT_NEAR(guide.goal_used().x(), 1.4, 1e-6);  // the nearest node that keeps 0.35 m
+  EXPECT_NEAR(guide.goal_used().y(), 0.0, 1e-6);
+  EXPECT_TRUE(guide.reachable({-4.0, 0.0}));
+}
+
+TEST(GuidePath, ReportsAClosedRoomButStillLeadsTowardsTheGoal) {
+  const OccupancyMap map = map_with({{{-2.0, -2.0}, {2.0, -1.8}},
+                                     {{-2.0, 1.8}, {2.0, 2.0}},
+                                     {{-2.0, -2.0}, {-1.8, 2.0}},
+                                     {{1.8, -2.0}, {2.0, 2.0}}});
+  GuidePath guide{GuidePathParameters{}};
+  EXPECT_EQ(guide.update(map, {6.0, 0.0}, {0.0, 0.0}), GuideOutcome::unreachable);
+  EXPECT_FALSE(guide.reachable({0.0, 0.0}));
+  EXPECT_TRUE(guide.reachable({-6.0, 0.0}));
+  EXPECT_TRUE(std::isfinite(guide.cost_to_go({0.0, 0.0})));
+  EXPECT_GT(guide.cost_to_go({0.0, 0.0}), guide.cost_to_go({3.0, 0.0}));
+}
+
+TEST(GuidePath, FindsDetoursOutsideTheWindow) {
+  GuidePathParameters parameters;
+  parameters.window_margin = 1.0;
+  const OccupancyMap map = map_with({{{-0.2, -6.0}, {0.2, 8.0}}});  // the only way round is at the far end
+  GuidePath guide{parameters};
+  EXPECT_EQ(guide.update(map, {2.0, 5.0}, {-2.0, 5.0}), GuideOutcome::reachable);
+  const double expected = 2.0 * std::hypot(1.8, 11.0);  // a little longer: around the corner at 0.35 m
+  EXPECT_NEAR(guide.cost_to_go({-2.0, 5.0}), expected + 1.0, 0.5);
+}
+
+TEST(GuidePath, KnowsWhenItIsOutdated) {
+  OccupancyMap map = map_with(kUShape);
+  GuidePath guide{GuidePathParameters{}};
+  EXPECT_TRUE(guide.outdated(map, {5.0, 0.0}, {0.0, 0.0}));
+  (void)guide.update(map, {5.0, 0.0}, {0.0, 0.0});
+  EXPECT_FALSE(guide.outdated(map, {5.0, 0.0}, {0.0, 0.0}));
+  EXPECT_TRUE(guide.outdated(map, {5.0, 0.1}, {0.0, 0.0}));
+  map.add_disc({4.0, 4.0}, 0.2);
+  EXPECT_TRUE(guide.outdated(map, {5.0, 0.0}, {0.0, 0.0}));
+}
+
+TEST(GuidePath, HasAnAnswerForHopelessInput) {
+  OccupancyMap full{GridFrame::covering({-1.0, -1.0}, {1.0, 1.0}, 0.1), 1.0};
+  full.add_box({-3.0, -3.0}, {3.0, 3.0});
+  GuidePath guide{GuidePathParameters{}};
+  EXPECT_EQ(guide.update(full, {0.0, 0.0}, {0.5, 0.5}), GuideOutcome::no_free_goal);
+  EXPECT_FALSE(guide.ready());
+  EXPECT_EQ(guide.update(map_with({}), {std::nan(""), 0.0}, {0.5, 0.5}), GuideOutcome::no_free_goal);
+  GuidePathParameters parameters;
+  parameters.resolution = 0.0;
+  EXPECT_THROW(GuidePath{parameters}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace spf
