@@ -1,0 +1,208 @@
+#include "spf/planning/clearance.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "spf/planning/braking.hpp"
+
+namespace spf {
+namespace {
+
+constexpr double kSlack =
+    1e-4;  // [m] by which a distance that is too small already may shrink (rounding, sampling)
+
+/// What approaches whom, and how fast at most.
+struct Encounter {
+  ConflictKind kind;
+  int id;
+  double approach_speed;  // [m/s]
+  double until;           // [s]
+};
+
+/// Walks along the trajectory; `clearance(time, position)` is a signed distance that changes no faster than
+/// approach_speed. Keeps the earliest conflict in the report.
+template <class ClearanceAt>
+void walk(const MovingDisc& self, double from, const Encounter& encounter, ClearanceAt&& clearance,
+          ClearanceReport& report) {
+  DiscCursor cursor{self};
+  double until = encounter.until;
+  if (!report.clear()) until = std::min(until, report.time);
+  const double slowness = 1.0 / std::max(encounter.approach_speed, 1e-3);
+  double allowed = 0.0;
+  for (double time = from; time <= until;) {
+    cursor.move_to(time);
+    const double now = clearance(time, cursor.position());
+    if (time == from) allowed = std::min(0.0, now);
+    report.min_clearance = std::min(report.min_clearance, now);
+    if (now < allowed - kSlack) {
+      if (report.clear() || time < report.time) {
+        report.kind = encounter.kind;
+        report.id = encounter.id;
+        report.time = time;
+        report.clearance = now;
+      }
+      return;
+    }
+    allowed = std::min(0.0, std::max(allowed, now));
+    if (time >= until) return;
+    time = std::min(until, time + std::max(ClearanceModel::kShortestStep, now * slowness));
+  }
+}
+
+}  // namespace
+
+ClearanceModel::ClearanceModel(const PlannerParameters& planner, const RobotParameters& robot,
+                               const FieldParameters& field)
+    : planner_{planner}, robot_{robot}, field_{field} {
+  constexpr std::size_t kUsualCount = 64;
+  discs_.reserve(kUsualCount);
+  regions_.reserve(kUsualCount);
+}
+
+void ClearanceModel::prepare(const WorldSnapshot& world, double time, PeerSelection selection) {
+  assert(world.map != nullptr);
+  map_ = world.map;
+  discs_.clear();
+  regions_.clear();
+  if (world.peers != nullptr) {
+    for (const Peer& peer : *world.peers) {
+      const bool stands = peer.state != PeerState::moving || peer.expired;
+      if (selection == PeerSelection::all || stands || peer.robot_id < world.robot_id) add_peer(peer);
+    }
+  }
+  if (world.tracks != nullptr && planner_.dynamic_model != DynamicModel::none)
+    for (const ObstacleTrack& track : *world.tracks) add_track(track, time);
+}
+
+void ClearanceModel::add_peer(const Peer& peer) {
+  MovingDisc disc;
+  disc.id = peer.robot_id;
+  disc.is_peer = true;
+  disc.radius = robot_.radius + peer.radius + (peer.expired ? peer.growth : 0.0);
+  if (peer.expired || peer.trajectory.empty()) {
+    disc.position_world = peer.position(peer.received_time);
+  } else {
+    disc.trajectory = &peer.trajectory;
+    disc.speed_bound = speed_bound(peer.trajectory);
+  }
+  discs_.push_back(disc);
+}
+
+void ClearanceModel::add_track(const ObstacleTrack& track, double time) {
+  ObstacleState now = track.state;
+  now.position_world += (time - track.time) * track.state.velocity_world;
+  if (planner_.dynamic_model == DynamicModel::constant_velocity) {
+    MovingDisc disc;
+    disc.id = track.id;
+    disc.radius = robot_.radius + now.radius;
+    disc.speed_bound = now.velocity_world.norm();
+    disc.time = time;
+    disc.position_world = now.position_world;
+    disc.velocity_world = now.velocity_world;
+    discs_.push_back(disc);
+    return;
+  }
+  FieldParameters parameters = field_;
+  if (planner_.dynamic_model == DynamicModel::frozen) {
+    parameters.directional = false;  // a disc where it stands
+    parameters.threshold_scale = 1.0;
+  }
+  DangerRegion region;
+  region.id = track.id;
+  region.field = ProbabilityField{now, robot_.radius, parameters};
+  region.threshold = region.field.threshold();
+  regions_.push_back(region);
+}
+
+double ClearanceModel::static_clearance(const Eigen::Vector2d& position_world, double margin_scale) const {
+  return map_->distance(position_world) - robot_.radius - margin_scale * planner_.static_margin;
+}
+
+double ClearanceModel::moving_clearance(const Eigen::Vector2d& position_world, double time) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const MovingDisc& disc : discs_) {
+    DiscCursor cursor{disc};
+    cursor.move_to(time);
+    least = std::min(least, (position_world - cursor.position()).norm() - disc.radius - planner_.peer_margin);
+  }
+  for (const DangerRegion& region : regions_)
+    least = std::min(least, region.field.clearance(position_world, region.threshold));
+  return least;
+}
+
+ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const ClearanceWindow& window) const {
+  assert(map_ != nullptr && !trajectory.empty());
+  MovingDisc self;
+  self.trajectory = &trajectory;
+  const double speed = speed_bound(trajectory);
+  ClearanceReport report;
+
+  // The interpolated distance may be a little steeper than the true one.
+  constexpr double kInterpolationSteepness = 1.1;
+  walk(
+      self, window.from, {ConflictKind::static_map, -1, kInterpolationSteepness * speed, window.static_until},
+      [&](double, const Eigen::Vector2d& p) { return static_clearance(p, window.margin_scale); }, report);
+
+  for (const MovingDisc& disc : discs_) {
+    DiscCursor other{disc};
+    const double contact = disc.radius + window.margin_scale * planner_.peer_margin;
+    const ConflictKind kind = disc.is_peer ? ConflictKind::peer : ConflictKind::obstacle;
+    walk(
+        self, window.from, {kind, disc.id, speed + disc.speed_bound, window.moving_until},
+        [&](double time, const Eigen::Vector2d& p) {
+          other.move_to(time);
+          return (p - other.position()).norm() - contact;
+        },
+        report);
+  }
+  for (const DangerRegion& region : regions_)
+    walk(
+        self, window.from, {ConflictKind::obstacle, region.id, speed, window.moving_until},
+        [&](double, const Eigen::Vector2d& p) { return region.field.clearance(p, region.threshold); },
+        report);
+  return report;
+}
+
+LimitReport check_limits(const Trajectory& trajectory, const RobotParameters& robot,
+                         const OmniKinematics& kinematics) {
+  constexpr int kSamplesPerPiece = 10;
+  LimitReport report;
+  double piece_start = trajectory.start_time();
+  for (int i = 0; i < trajectory.piece_count(); ++i) {
+    const QuinticPiece& piece = trajectory.piece(i);
+    for (int j = (i == 0 ? 0 : 1); j <= kSamplesPerPiece; ++j) {
+      const double local_time = piece.duration * j / kSamplesPerPiece;
+      const Eigen::Vector2d velocity = piece.velocity(local_time);
+      const HeadingState heading = trajectory.heading().state(piece_start + local_time);
+      const Eigen::Vector3d wheels =
+          kinematics.wheel_speeds_from_world({velocity.x(), velocity.y(), heading.yaw_rate}, heading.heading);
+      report.speed = std::max(report.speed, velocity.norm());
+      report.acceleration = std::max(report.acceleration, piece.acceleration(local_time).norm());
+      report.wheel_speed = std::max(report.wheel_speed, wheels.lpNorm<Eigen::Infinity>());
+    }
+    piece_start += piece.duration;
+  }
+  report.speed /= robot.max_speed;
+  report.acceleration /= robot.max_acceleration;
+  report.wheel_speed /= robot.max_wheel_speed;
+  return report;
+}
+
+HeadingProfile fitted_heading(const Trajectory& trajectory, const HeadingState& heading,
+                              double target_heading, const RobotParameters& robot,
+                              const OmniKinematics& kinematics) {
+  constexpr int kTries = 6;
+  constexpr double kSlowest = 0.02;  // [rad/s]
+  double yaw_rate = robot.max_yaw_rate;
+  Trajectory trial = trajectory;
+  for (int i = 0; i < kTries && yaw_rate > kSlowest; ++i) {
+    trial.set_heading(
+        {trajectory.start_time(), heading, target_heading, yaw_rate, robot.max_yaw_acceleration});
+    if (check_limits(trial, robot, kinematics).wheel_speed <= 1.0) return trial.heading();
+    yaw_rate *= 0.5;
+  }
+  return stopping_heading(heading, trajectory.start_time(), robot);
+}
+
+}  // namespace spf

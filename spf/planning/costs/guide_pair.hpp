@@ -1,0 +1,22 @@
+// A half plane that a node should be in: how static surfaces (es2 guide pairs) and the safety probability
+// field (eq. 10-13) reach the optimiser. Both are constants within one run. Frame: world.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace spf {
+
+struct GuidePair {
+  int node = 0;  ///< index in the NodeSet
+  Eigen::Vector2d base =
+      Eigen::Vector2d::Zero();  ///< [m] point on the edge of danger: b, or the guide point g
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< unit vector into safety
+  int source = -1;                                   ///< id of the obstacle, -1 = static
+};
+
+/// Signed distance of a point from the edge [m], positive in safety.
+[[nodiscard]] inline double signed_distance(const GuidePair& pair, const Eigen::Vector2d& position) {
+  return (position - pair.base).dot(pair.normal);
+}
+
+}  // namespace spf

@@ -1,0 +1,26 @@
+// Static obstacles: half planes found by a path search (es2 guide pairs). Frame: world.
+#pragma once
+
+#include <vector>
+
+#include "spf/planning/costs/guide_pair.hpp"
+#include "spf/planning/costs/node_set.hpp"
+
+namespace spf {
+
+struct StaticCost {
+  double hard_weight = 1.0;     ///< [1/s] cost rate on the edge (signed distance 0)
+  double soft_weight = 1.0;     ///< [1/s] about the cost rate on the edge
+  double hard_clearance = 0.1;  ///< [m] wanted beyond the edge
+  double soft_clearance = 0.3;  ///< [m] comfortable beyond the edge
+
+  /// With e = clearance - signed distance and r = kSoftScale, where positive:
+  /// P = hard_weight (e_hard / hard_clearance)^3 + soft_weight (r / soft_clearance) (sqrt(1 + (e_soft / r)^2)
+  /// - 1).
+  void add(const std::vector<GuidePair>& pairs, NodeSet& nodes) const;
+
+  /// [m] the soft part is quadratic below and linear above this excess (pseudo-Huber).
+  static constexpr double kSoftScale = 0.05;
+};
+
+}  // namespace spf

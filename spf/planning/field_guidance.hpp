@@ -1,0 +1,84 @@
+// Guide points of uncertain moving obstacles (eq. 10-11, Fig. 4): where nodes lie in danger, which side to
+// pass, and the memory of sides that keeps the robot from dithering. Frame: world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "spf/planning/clearance.hpp"
+#include "spf/planning/costs/guide_pair.hpp"
+#include "spf/planning/costs/node_set.hpp"
+
+namespace spf {
+
+/// Passing side: of the robot's way through the field, seen along it.
+enum class PassingSide { right = -1, left = 1 };
+
+/// One obstacle whose field the trajectory enters.
+struct FieldConflict {
+  int region = 0;                                    ///< index among the danger regions
+  int first = 0;                                     ///< first and last dangerous node
+  int last = 0;                                      ///<
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< unit, entry to exit: the line of symmetry of Fig. 4
+  Eigen::Vector2d entry_world = Eigen::Vector2d::Zero();  ///< [m] the line passes through it
+  PassingSide natural = PassingSide::left;                ///< where the gradients of the field lead
+};
+
+/// Which side each region is passed on; by index of the region.
+struct SideChoice {
+  bool decided = false;
+  PassingSide side = PassingSide::left;
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+  Eigen::Vector2d entry_world = Eigen::Vector2d::Zero();
+};
+
+class FieldGuidance {
+ public:
+  /// `least_sideways`: sine of the least angle between a guide direction and the line of symmetry. Along the
+  /// line no side is gained, and a point on the obstacle's axis would never leave it (paper_notes).
+  FieldGuidance(const FieldParameters& parameters, double least_sideways);
+
+  /// Conflicts of the nodes 1 .. last_node, once per region, in the order of their first node.
+  void find_conflicts(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
+                      const FlatState& head, std::vector<FieldConflict>& conflicts) const;
+
+  /// Appends a pair for every dangerous node of 1 .. last_node that has none for this obstacle: guide point
+  /// in closed form, mirrored at the line of symmetry together with its direction where the chosen side asks
+  /// for it. A region that is met without a choice is decided by its gradients. Returns the number of pairs
+  /// appended.
+  int add_pairs(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
+                const FlatState& head, std::vector<SideChoice>& sides, std::vector<GuidePair>& pairs) const;
+
+  /// Side taken last time, if it is remembered: +1 left, -1 right, 0 unknown.
+  [[nodiscard]] int remembered_side(int track_id, double time) const;
+  /// Records the side a committed plan takes.
+  void remember(int track_id, PassingSide side, double time);
+  /// Side changes of one obstacle within side_change_window.
+  [[nodiscard]] int side_changes(int track_id, double time) const;
+  /// Largest over all obstacles.
+  [[nodiscard]] int side_changes(double time) const;
+  /// Factor on the threshold, above 1 after repeated side changes (the paper's engineering setting).
+  [[nodiscard]] double widening(int track_id, double time) const;
+
+ private:
+  static constexpr int kMaxChanges = 8;
+  struct Memory {
+    int track_id = -1;
+    PassingSide side = PassingSide::left;
+    double time = 0.0;                 // [s] of the last remember()
+    double changes[kMaxChanges] = {};  // [s] ring of the latest changes
+    int change_count = 0;
+  };
+  [[nodiscard]] const Memory* find(int track_id) const;
+  [[nodiscard]] GuidePair make_pair(const DangerRegion& region, const NodeSample& node,
+                                    const SideChoice& choice) const;
+  [[nodiscard]] FieldConflict conflict_of(const DangerRegion& region, int index, const NodeSet& nodes,
+                                          int first, int last, const FlatState& head) const;
+
+  FieldParameters parameters_;
+  double least_sideways_;
+  std::vector<Memory> memory_;
+};
+
+}  // namespace spf

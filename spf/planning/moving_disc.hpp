@@ -1,0 +1,43 @@
+// A disc on a known course over absolute time: a teammate's broadcast trajectory, an obstacle that moves on
+// at constant velocity, or one that stands. The one description shared by the peer cost and the clearance
+// check. Frame: world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "spf/trajectory/trajectory.hpp"
+
+namespace spf {
+
+struct MovingDisc {
+  int id = -1;
+  bool is_peer = false;
+  double radius = 0.0;                     ///< [m] distance of the centres at contact
+  double speed_bound = 0.0;                ///< [m/s] never faster than this
+  const Trajectory* trajectory = nullptr;  ///< the course; null: a straight line at constant velocity
+  double time = 0.0;                       ///< [s] instant of position_world (straight line)
+  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
+  Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]
+};
+
+/// Upper bound of the speed along a trajectory [m/s]: the control polygon of each velocity polynomial, a
+/// cheap hull.
+[[nodiscard]] double speed_bound(const Trajectory& trajectory);
+
+/// Position and velocity at absolute times; cheap when the times ascend. Keeps a reference to the disc.
+class DiscCursor {
+ public:
+  explicit DiscCursor(const MovingDisc& disc);
+  void move_to(double time);
+  [[nodiscard]] const Eigen::Vector2d& position() const { return position_; }
+  [[nodiscard]] const Eigen::Vector2d& velocity() const { return velocity_; }
+
+ private:
+  const MovingDisc& disc_;
+  int piece_ = 0;
+  double piece_start_ = 0.0;  // [s]
+  Eigen::Vector2d position_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity_ = Eigen::Vector2d::Zero();
+};
+
+}  // namespace spf

@@ -1,0 +1,133 @@
+// Parameters of the paper's planner (eq. 9-13) and its baselines. Lengths scale with the robot; weights are
+// freed of the robot's scale (see each cost term), so one set serves a 0.05 m and a 1 m robot alike.
+#pragma once
+
+#include "spf/math/lbfgs.hpp"
+#include "spf/math/parameters.hpp"
+
+namespace spf {
+
+/// What is assumed about moving obstacles; the baselines of the paper differ in nothing else.
+enum class DynamicModel {
+  none,               ///< ignored (checks included)
+  frozen,             ///< ES2: stands where it is
+  constant_velocity,  ///< ES2*: moves on for ever at its present velocity
+  probability_field,  ///< the paper: safety probability field, both sides tried
+};
+
+template <>
+struct EnumNames<DynamicModel> {
+  static constexpr std::array<std::pair<DynamicModel, const char*>, 4> values{
+      {{DynamicModel::none, "none"},
+       {DynamicModel::frozen, "frozen"},
+       {DynamicModel::constant_velocity, "constant_velocity"},
+       {DynamicModel::probability_field, "probability_field"}}};
+};
+
+/// Weights of the cost terms (eq. 9). Those in 1/s compare with `time`: a cost rate of 10 there is worth as
+/// much as standing still with a time weight of 10.
+struct CostWeights {
+  double smoothness = 1.0;     ///< [1/s] of |jerk|^2 / (max_acceleration^2 / max_speed)^2
+  double time = 10.0;          ///< [1/s]
+  double limits = 1e4;         ///< [1/s] of the cubed relative excess of the squared limit
+  double peers = 1000.0;       ///< [1/s] at contact
+  double static_hard = 30.0;   ///< [1/s] at the inflated surface
+  double static_soft = 100.0;  ///< [1/s] about that of the inflated surface
+  double spacing = 10.0;       ///< [1] at the mean node distance of piece_length / nodes_per_piece
+  double dynamic = 5.0;        ///< [1] omega_dyn of eq. 9, per point on the field's ellipse
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    constexpr Range kWeight{0.0, 1e9};
+    visit("smoothness", self.smoothness, "1/s", kWeight,
+          "weight of the squared jerk relative to the robot's own");
+    visit("time", self.time, "1/s", kWeight, "weight of the travel time");
+    visit("limits", self.limits, "1/s", kWeight, "weight of exceeded velocity, acceleration and jerk limits");
+    visit("peers", self.peers, "1/s", kWeight,
+          "weight of peers (and of obstacles at constant velocity), at contact");
+    visit("static_hard", self.static_hard, "1/s", kWeight,
+          "weight of static obstacles within hard_clearance, at contact");
+    visit("static_soft", self.static_soft, "1/s", kWeight,
+          "weight of static obstacles within soft_clearance, at contact");
+    visit("spacing", self.spacing, "1", kWeight, "weight of long and uneven gaps between nodes");
+    visit("dynamic", self.dynamic, "1", kWeight, "weight of uncertain moving obstacles, omega_dyn of eq. 9");
+  }
+};
+
+struct PlannerParameters {
+  DynamicModel dynamic_model = DynamicModel::probability_field;
+  double horizon = 7.5;             ///< [m] way to the local target
+  double piece_length = 1.5;        ///< [m] way per piece
+  int max_pieces = 8;               ///< [1]
+  int nodes_per_piece = 5;          ///< [1] intervals between nodes in a piece
+  double checked_fraction = 0.667;  ///< [1] part of the plan (from its start) that heeds what moves
+  double static_margin = 0.02;      ///< [m] beyond the robot's radius, for search and checks
+  double hard_clearance = 0.1;      ///< [m] wanted beyond that from static obstacles
+  double soft_clearance = 0.3;      ///< [m] comfortable beyond that
+  double peer_margin = 0.05;        ///< [m] beyond contact, for checks
+  double peer_clearance = 0.25;     ///< [m] wanted beyond contact with peers
+  double safety_distance = 0.1;     ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
+  double least_sideways =
+      0.7;  ///< [1] sine of the least angle between escape direction and way through the field
+  int max_side_combinations = 8;        ///< [1] ways past the obstacles in conflict that are optimised
+  double side_bonus = 0.15;             ///< [1] discount of the side taken last time
+  int unsafe_retries = 3;               ///< [1] further runs of a candidate after a failed check
+  int max_rebounds = 20;                ///< [1] runs cut short by a newly met static obstacle
+  int run_evaluations = 150;            ///< [1] deadline of one optimiser run
+  int max_evaluations = 1500;           ///< [1] deadline of one plan
+  double speed_tolerance = 0.05;        ///< [1] accepted excess over max_speed
+  double acceleration_tolerance = 0.1;  ///< [1] accepted excess over max_acceleration
+  double slow_factor = 1.8;             ///< [1] stretch of time of the slow seed
+  double goal_tolerance = 0.01;         ///< [m] closer and at rest: standing is the plan
+  bool keep_candidates = false;         ///< keeps every candidate's trajectory in the result
+  CostWeights weights;
+  LbfgsParameters optimizer;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    constexpr Range kLength{0.0, 100.0};
+    visit("dynamic_model", self.dynamic_model, "what is assumed about moving obstacles");
+    visit("horizon", self.horizon, "m", Range{0.05, 100.0}, "way to the local target (ES2: 7.5)");
+    visit("piece_length", self.piece_length, "m", Range{0.01, 100.0}, "way per piece (ES2: 1.5)");
+    visit("max_pieces", self.max_pieces, "1", Range{2, 12}, "most pieces of a plan");
+    visit("nodes_per_piece", self.nodes_per_piece, "1", Range{2, 20},
+          "intervals between nodes in a piece, K (ES2: 5)");
+    visit("checked_fraction", self.checked_fraction, "1", Range{0.1, 1.0},
+          "part of the plan that heeds what moves; the rest is planned again before it is driven (ES2: 2/3)");
+    visit("static_margin", self.static_margin, "m", kLength,
+          "beyond the radius, for search and checks of static obstacles");
+    visit("hard_clearance", self.hard_clearance, "m", Range{0.001, 100.0},
+          "wanted beyond static_margin (ES2: 0.1)");
+    visit("soft_clearance", self.soft_clearance, "m", Range{0.001, 100.0},
+          "comfortable beyond static_margin (ES2: 0.5)");
+    visit("peer_margin", self.peer_margin, "m", kLength,
+          "beyond contact with peers and constant-velocity obstacles, for checks");
+    visit("peer_clearance", self.peer_clearance, "m", Range{0.001, 100.0}, "wanted beyond contact with them");
+    visit("safety_distance", self.safety_distance, "m", Range{0.001, 100.0}, "d_saf of eq. 10");
+    visit("least_sideways", self.least_sideways, "1", Range{0.0, 1.0},
+          "sine of the least angle between an escape direction and the way through the field; 0 = eq. 11 as "
+          "printed");
+    visit("max_side_combinations", self.max_side_combinations, "1", Range{1, 64},
+          "ways past the obstacles that are optimised");
+    visit("side_bonus", self.side_bonus, "1", Range{0.0, 0.9}, "discount of the side taken last time");
+    visit("unsafe_retries", self.unsafe_retries, "1", Range{0, 20},
+          "further runs of a candidate after a failed check (ES2: 2)");
+    visit("max_rebounds", self.max_rebounds, "1", Range{0, 100},
+          "runs cut short by a newly met static obstacle (ES2: 20)");
+    visit("run_evaluations", self.run_evaluations, "1", Range{5, 100000},
+          "cost evaluations of one optimiser run");
+    visit("max_evaluations", self.max_evaluations, "1", Range{5, 1000000},
+          "cost evaluations of one plan: its deadline");
+    visit("speed_tolerance", self.speed_tolerance, "1", Range{0.0, 1.0}, "accepted excess over max_speed");
+    visit("acceleration_tolerance", self.acceleration_tolerance, "1", Range{0.0, 1.0},
+          "accepted excess over max_acceleration");
+    visit("slow_factor", self.slow_factor, "1", Range{1.0, 10.0}, "stretch of time of the slow seed");
+    visit("goal_tolerance", self.goal_tolerance, "m", kLength, "closer and at rest, standing is the plan");
+    visit("keep_candidates", self.keep_candidates,
+          "keep every candidate's trajectory in the result (allocates)");
+    visit.group("weights", self.weights);
+    visit.group("optimizer", self.optimizer);
+  }
+};
+
+}  // namespace spf
