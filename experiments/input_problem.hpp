@@ -1,0 +1,58 @@
+// What is wrong with an input, where it stands, and the exception that carries all of it at once.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace spf {
+
+/// A place in an input. `line` and `column` count from 1; 0 means "the whole of it" (a file that cannot be
+/// read, an option of the command line).
+struct SourcePlace {
+  std::string source;  ///< file name, or "--set"
+  int line = 0;
+  int column = 0;
+};
+
+/// "file:line:column", "file:line" or "file".
+[[nodiscard]] std::string to_string(const SourcePlace& place);
+
+struct InputProblem {
+  SourcePlace place;
+  std::string sentence;  ///< "noise.level = -1 must lie in [0, 100]"
+};
+
+/// Collects problems in the order in which they are found. Keeps the first `kMostProblems` and counts the
+/// rest, so that a file with a million bad lines does not fill the terminal.
+class InputProblems {
+ public:
+  static constexpr std::size_t kMostProblems = 100;
+
+  void add(const SourcePlace& place, std::string sentence);
+  [[nodiscard]] bool empty() const { return kept_.empty(); }
+  [[nodiscard]] const std::vector<InputProblem>& kept() const { return kept_; }
+  [[nodiscard]] std::size_t left_out() const { return left_out_; }
+  /// One problem a line, sorted by place.
+  [[nodiscard]] std::string to_text() const;
+  /// Throws InputError when there is any.
+  void throw_if_any() const;
+
+ private:
+  std::vector<InputProblem> kept_;
+  std::size_t left_out_ = 0;
+};
+
+/// Bad input from outside; what() is InputProblems::to_text().
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(InputProblems problems)
+      : std::runtime_error{problems.to_text()}, problems_{std::move(problems)} {}
+  InputError(const SourcePlace& place, std::string sentence);
+  [[nodiscard]] const InputProblems& problems() const { return problems_; }
+
+ private:
+  InputProblems problems_;
+};
+
+}  // namespace spf
