@@ -141,7 +141,7 @@ TEST(Lbfgs, GoesDownToTheKinkOfSumsOfAbsoluteValues) {
     const double start_cost = cost(x, unused);
     const LbfgsResult result = Lbfgs{n, exact_parameters()}.minimize(x, cost);
     EXPECT_NE(result.outcome, LbfgsOutcome::evaluation_limit);
-    EXPECT_LT(result.cost, 1e-4 * start_cost);  // measured: below 1e-6; allowed 100x
+    EXPECT_LT(result.cost, 1e-12 * start_cost);  // measured 6e-15
   }
 }
 
@@ -422,7 +422,7 @@ TEST(Lbfgs, NeedsNotManyMoreEvaluationsThanAnotherImplementation) {
     theirs += calls;
     EXPECT_LT((x - y).norm(), 1e-5);  // both within gradient 1e-7 of the one minimum, least curvature 0.4
   }
-  EXPECT_LT(ours, 1.5 * theirs);
+  EXPECT_LT(ours, 1.5 * theirs);  // measured 2284 against 2237
 }
 #endif
 

@@ -34,7 +34,7 @@ void Minco::solve(const MincoEnds& ends, const WaypointsView& waypoints_world,
                   const DurationsView& durations) {
   assert(1 <= durations.size() && durations.size() <= kMaxPieces);
   assert(waypoints_world.cols() == durations.size() - 1);
-  assert((durations.array() > 0.0).all());
+  assert(!(durations.array() < 0.0).any());  // zero and NaN, from a line search gone far, are let through
   durations_ = durations;
   fill_matrix();
   matrix_.factorize();

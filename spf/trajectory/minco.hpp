@@ -38,8 +38,8 @@ class Minco {
   Minco();
 
   /// Determines the motion through waypoints (a column each, one fewer than durations) with 1 to kMaxPieces
-  /// durations > 0 [s]. Durations so extreme that powers of them overflow give coefficients that are not
-  /// finite.
+  /// durations > 0 [s]. Durations so extreme that their powers under- or overflow give coefficients that are
+  /// not finite, hence a cost that is not finite, which the optimiser takes as a step too long.
   void solve(const MincoEnds& ends, const WaypointsView& waypoints_world, const DurationsView& durations);
 
   [[nodiscard]] int piece_count() const { return static_cast<int>(durations_.size()); }

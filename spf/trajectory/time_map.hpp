@@ -1,5 +1,6 @@
 // Smooth one-to-one map between an unconstrained number tau and a positive duration, so that durations can be
-// optimised without bounds (eq. 6 of the paper's base planner): T(0) = 1, twice continuously differentiable.
+// optimised without bounds: T(0) = 1 s, twice continuously differentiable, quadratic for long durations and
+// inverse quadratic for short ones.
 #pragma once
 
 #include <cassert>
