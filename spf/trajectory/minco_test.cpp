@@ -141,8 +141,8 @@ TEST(Minco, IsSmoothAcrossWaypoints) {
       for (int order = 0; order <= 4; ++order) {
         const Eigen::Vector2d before = derivative(trajectory.piece(k), order, trajectory.piece(k).duration);
         const Eigen::Vector2d after = derivative(trajectory.piece(k + 1), order, 0.0);
-        EXPECT_LT((before - after).norm(), 1e-11 * (1.0 + after.norm()))  // measured 1e-13
-
+        // Measured 1e-13.
+        EXPECT_LT((before - after).norm(), 1e-11 * (1.0 + after.norm()))
             << "waypoint " << k << " order " << order;
       }
   }
@@ -158,8 +158,8 @@ TEST(Minco, KeepsPrecisionForShortAndLongPieces) {
       const Trajectory trajectory = solved(problem).trajectory(0.0);
       for (int k = 0; k + 1 < 8; ++k) {
         const QuinticPiece& piece = trajectory.piece(k);
-        EXPECT_LT((piece.position(piece.duration) - problem.waypoints.col(k)).norm(),
-                  1e-10);  // measured 6e-12, at the longest
+        // Measured 6e-12, at the longest.
+        EXPECT_LT((piece.position(piece.duration) - problem.waypoints.col(k)).norm(), 1e-10);
       }
       EXPECT_LT((trajectory.tail_position() - problem.ends.tail.position_world).norm(), 1e-10);
     }
@@ -196,8 +196,8 @@ TEST(Minco, SmoothnessIsTheIntegralOfSquaredJerk) {
 }
 
 TEST(Minco, NoCurveThroughTheSamePointsHasLessJerk) {
-  // Two kinds of competitor: one with other velocities and accelerations at the waypoints, and one with a bump
-  // inside a piece that vanishes with its first two derivatives at both its ends.
+  // Two kinds of competitor: one with other velocities and accelerations at the waypoints, and one with a
+  // bump inside a piece that vanishes with its first two derivatives at both its ends.
   RandomStream random{6};
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
