@@ -12,8 +12,8 @@
 namespace spf {
 namespace {
 
-constexpr double kTrailTolerance = 0.02;  // [m]
-constexpr double kMargin = 12.0;          // [px]
+constexpr double kTrailTolerance = 0.005;  // [m]
+constexpr double kMargin = 12.0;           // [px]
 
 bool is_known(const ReplayPoint& p) {
   return std::isfinite(p.x) && std::isfinite(p.y);

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <regex>
 #include <stdexcept>
 #include <vector>
 
@@ -14,20 +12,29 @@
 namespace spf {
 namespace {
 
-/// A reader of well-formed XML without attributes' meaning: every element that opens also closes, in order.
+/// Every element that opens also closes, in order, and every '<' belongs to an element.
 bool is_balanced(const std::string& svg) {
-  const std::regex tag{"<(/?)([a-z]+)((?:\\s+[a-zA-Z:-]+=\"[^\"<]*\")*)\\s*(/?)>"};
   std::vector<std::string> open;
-  std::size_t tags = 0;
-  for (std::sregex_iterator at{svg.begin(), svg.end(), tag}, end; at != end; ++at, ++tags) {
-    if ((*at)[1] == "/") {
-      if (open.empty() || open.back() != (*at)[2]) return false;
+  for (std::size_t at = svg.find('<'); at != std::string::npos; at = svg.find('<', at + 1)) {
+    const std::size_t end = svg.find_first_of("<>", at + 1);
+    if (end == std::string::npos || svg[end] == '<') return false;
+    const std::string tag = svg.substr(at + 1, end - at - 1);
+    const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
+    if (tag.front() == '/') {
+      if (open.empty() || "/" + open.back() != name) return false;
       open.pop_back();
-    } else if ((*at)[4] != "/") {
-      open.push_back((*at)[2]);
+    } else if (tag.back() != '/') {
+      open.push_back(name);
     }
   }
-  return open.empty() && tags == static_cast<std::size_t>(std::count(svg.begin(), svg.end(), '<'));
+  return open.empty();
+}
+
+TEST(FrameSvg, TheBalanceCheckSeesFaults) {
+  EXPECT_TRUE(is_balanced("<svg><a b=\"c\"/><t>x</t></svg>"));
+  EXPECT_FALSE(is_balanced("<svg><t></svg></t>"));
+  EXPECT_FALSE(is_balanced("<svg>"));
+  EXPECT_FALSE(is_balanced("<svg>a < b</svg>"));
 }
 
 ReplayData two_frames() {

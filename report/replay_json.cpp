@@ -17,13 +17,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLengthStep = 1e-3;     // [m]
-constexpr double kSigmaStep = 1e-4;      // [m] an estimate may be good to a millimetre
-constexpr double kAngleStep = 1e-3;      // [rad]
-constexpr double kTimeStep = 1e-3;       // [s]
-constexpr double kComputingStep = 1e-7;  // [s]
-constexpr double kPlanTolerance = 0.01;  // [m] a third of a pixel when 20 m fill a screen
-constexpr double kCandidateTolerance = 0.02;
+constexpr double kLengthStep = 1e-3;          // [m]
+constexpr double kSigmaStep = 1e-4;           // [m] an estimate may be good to a millimetre
+constexpr double kAngleStep = 1e-3;           // [rad]
+constexpr double kTimeStep = 1e-3;            // [s]
+constexpr double kComputingStep = 1e-7;       // [s]
+constexpr double kPlanTolerance = 0.004;      // [m] below a pixel even when 4 m fill a screen
+constexpr double kCandidateTolerance = 0.01;  // [m]
 
 json length(double value) {
   return quantised(value, kLengthStep);
@@ -76,31 +76,28 @@ Ellipse one_sigma(const ReplayCovariance& covariance) {
           0.5 * std::atan2(2.0 * covariance.xy, covariance.xx - covariance.yy)};
 }
 
+/// A row, not an object: there are thousands of them, and names would be a third of the file.
+/// [label, chosen, cost, risk, n, x, y]
 json candidate_json(const ReplayCandidate& candidate, SharedTexts& texts) {
   const std::vector<ReplayPoint> points = thinned(candidate.points, kCandidateTolerance);
-  return {{"label", texts.index(candidate.label)},
-          {"chosen", candidate.chosen ? 1 : 0},
-          {"cost", short_number(candidate.cost)},
-          {"risk", short_number(candidate.risk)},
-          {"x", column(points, kLengthStep, [](const ReplayPoint& p) { return p.x; })},
-          {"y", column(points, kLengthStep, [](const ReplayPoint& p) { return p.y; })},
-          {"n", points.size()}};
+  return json::array({texts.index(candidate.label), candidate.chosen ? 1 : 0, short_number(candidate.cost),
+                      short_number(candidate.risk), points.size(),
+                      column(points, kLengthStep, [](const ReplayPoint& p) { return p.x; }),
+                      column(points, kLengthStep, [](const ReplayPoint& p) { return p.y; })});
 }
 
+/// [time, outcome, computing, evaluations, n, t, x, y, candidates]
 json plan_json(const ReplayPlan& plan, SharedTexts& texts) {
   const std::vector<ReplayTimedPoint> points = thinned(plan.points, kPlanTolerance);
   json candidates = json::array();
   for (const ReplayCandidate& candidate : plan.candidates)
     candidates.push_back(candidate_json(candidate, texts));
-  return {{"time", quantised(plan.time, kTimeStep)},
-          {"t", column(points, kTimeStep, [](const ReplayTimedPoint& p) { return p.time; })},
-          {"x", column(points, kLengthStep, [](const ReplayTimedPoint& p) { return p.x; })},
-          {"y", column(points, kLengthStep, [](const ReplayTimedPoint& p) { return p.y; })},
-          {"n", points.size()},
-          {"candidates", std::move(candidates)},
-          {"outcome", texts.index(plan.outcome)},
-          {"computing", quantised(plan.planning_time, kComputingStep)},
-          {"evaluations", plan.evaluations}};
+  return json::array({quantised(plan.time, kTimeStep), texts.index(plan.outcome),
+                      quantised(plan.planning_time, kComputingStep), plan.evaluations, points.size(),
+                      column(points, kTimeStep, [](const ReplayTimedPoint& p) { return p.time; }),
+                      column(points, kLengthStep, [](const ReplayTimedPoint& p) { return p.x; }),
+                      column(points, kLengthStep, [](const ReplayTimedPoint& p) { return p.y; }),
+                      std::move(candidates)});
 }
 
 json cells_json(const std::vector<ReplayCell>& cells) {

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <regex>
-
 #include "report/html_text.hpp"
 #include "report/test/sample_replay.hpp"
 
@@ -30,7 +28,10 @@ TEST(ReplayPage, HoldsOneDataAndOneCodeScriptWhateverTheTextsSay) {
 
 TEST(ReplayPage, NamesNoOtherAddress) {
   const std::string page = render_replay(sample_replay());
-  EXPECT_FALSE(std::regex_search(page, std::regex{"https?://|@import|url\\(|fetch\\(|XMLHttpRequest"}));
+  for (const char* door :
+       {"http:", "https:", "@import", "url(", "fetch(", "XMLHttpRequest", "WebSocket", "import("}) {
+    EXPECT_THAT(page, testing::Not(testing::HasSubstr(door)));
+  }
   EXPECT_THAT(page, testing::HasSubstr("default-src 'none'"));
 }
 

@@ -20,19 +20,15 @@ const LENGTH = 1e-3, SIGMA = 1e-4, ANGLE = 1e-3, TIME = 1e-3, COMPUTING = 1e-7;
 const known = (value, step) => (value === null ? NaN : value * step);
 const decodePoint = (pair) => ({ x: known(pair[0], LENGTH), y: known(pair[1], LENGTH) });
 
-function decodeCandidate(raw, texts) {
-  return {
-    label: texts[raw.label], chosen: raw.chosen === 1, cost: raw.cost, risk: raw.risk,
-    x: decodeColumn(raw.x, raw.n, LENGTH), y: decodeColumn(raw.y, raw.n, LENGTH),
-  };
+function decodeCandidate([label, chosen, cost, risk, n, x, y], texts) {
+  return { label: texts[label], chosen: chosen === 1, cost, risk, x: decodeColumn(x, n, LENGTH), y: decodeColumn(y, n, LENGTH) };
 }
 
-function decodePlan(raw, texts) {
+function decodePlan([time, outcome, computing, evaluations, n, t, x, y, candidates], texts) {
   return {
-    time: known(raw.time, TIME), outcome: texts[raw.outcome], computing: known(raw.computing, COMPUTING),
-    evaluations: raw.evaluations, t: decodeColumn(raw.t, raw.n, TIME),
-    x: decodeColumn(raw.x, raw.n, LENGTH), y: decodeColumn(raw.y, raw.n, LENGTH),
-    candidates: raw.candidates.map((candidate) => decodeCandidate(candidate, texts)),
+    time: known(time, TIME), outcome: texts[outcome], computing: known(computing, COMPUTING), evaluations,
+    t: decodeColumn(t, n, TIME), x: decodeColumn(x, n, LENGTH), y: decodeColumn(y, n, LENGTH),
+    candidates: candidates.map((candidate) => decodeCandidate(candidate, texts)),
   };
 }
 

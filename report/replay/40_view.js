@@ -10,7 +10,7 @@ const toWorldY = (py) => view.y - (py - view.height / 2) / view.scale;
 
 function fitScale() {
   const [left, bottom, right, top] = run.bounds;
-  return 0.96 * Math.min(view.width / (right - left), view.height / (top - bottom));
+  return 0.93 * Math.min(view.width / (right - left), view.height / (top - bottom));
 }
 
 function fitView() {

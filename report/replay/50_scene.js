@@ -277,7 +277,10 @@ function drawRobot(robot, frame, chosen) {
   }
   pen.textAlign = "center";
   pen.textBaseline = "middle";
-  if (radius >= 7) {
+  if (chosen && layers.estimate) {  // the estimate lies over the disc
+    pen.font = `700 13px ${FONT}`;
+    haloText(String(robot.id), px, py - Math.max(radius, 3) - 13, color);
+  } else if (radius >= 7) {
     pen.font = `600 ${Math.min(Math.max(0.95 * radius, 9), 16)}px ${FONT}`;
     pen.fillStyle = colors["on-accent"];
     pen.fillText(String(robot.id), px, py + 0.5);
@@ -312,6 +315,7 @@ function drawEstimate(robot, frame) {
   pen.strokeStyle = colors.text;
   pen.lineWidth = 1.5;
   pen.stroke();
+  drawCross(toScreenX(x), toScreenY(y), 5, faded(colors.panel, 0.8), 3.5);
   drawCross(toScreenX(x), toScreenY(y), 4, colors.text, 1.5);
 }
 

@@ -1,6 +1,6 @@
 // Charts of the chosen robot over time. The lines are drawn once per robot, size and palette; the cursor every frame.
 
-const PAD = { left: 56, right: 10, top: 8, bottom: 34 };
+const PAD = { left: 62, right: 10, top: 8, bottom: 34 };
 const DASHES = [[], [7, 3], [2, 3]];
 
 /**
@@ -91,7 +91,7 @@ class Chart {
     }
     context.fillText("time [s]", (PAD.left + this.width - PAD.right) / 2, this.height - 13);
     context.save();
-    context.translate(9, (PAD.top + this.height - PAD.bottom) / 2);
+    context.translate(7, (PAD.top + this.height - PAD.bottom) / 2);
     context.rotate(-Math.PI / 2);
     context.textBaseline = "middle";
     context.fillText(unit, 0, 0);
@@ -229,7 +229,7 @@ const charts = [
     return {
       lines: [{ name: "control tick", values: robot?.control ?? [], color: "series-0", dash: [] }],
       dots: [{ name: "plan", points, color: "series-1" }],
-      low, high, log: true, unit: "time (log)", label: `Computing times of robot ${robot?.id}: each plan and each control tick, logarithmic`,
+      low, high, log: true, unit: "log scale", label: `Computing times of robot ${robot?.id}: each plan and each control tick, logarithmic`,
     };
   }, (robot) => {
     const plan = robot && planNewest(robot, state.time);

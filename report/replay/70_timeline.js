@@ -87,10 +87,11 @@ function describeEvent(event) {
   return [[who, words].filter(Boolean).join(" ").trim(), event.text].filter(Boolean).join(": ");
 }
 
-/** One line under the slider: what happened last, for a while. */
+/** One line under the slider: what happened last, for a while; then what comes next. */
 function paintNow() {
   const line = document.getElementById("now");
-  let text = "";
+  const next = run.events.find((event) => event.kind !== "replan" && event.time > state.time + 1e-9);
+  let text = next ? `next: ${formatted(next.time, 1)} s  ${describeEvent(next)}` : "";
   for (let i = lastBefore(run.events, state.time); i >= 0 && run.events[i].time > state.time - 3; --i) {
     if (run.events[i].kind === "replan") continue;
     text = `${formatted(run.events[i].time, 1)} s  ${describeEvent(run.events[i])}`;

@@ -72,7 +72,7 @@ await check("plays with the space key and stops", desktop, "", async (page) => {
   await page.waitForFunction(() => parseFloat(document.getElementById("clock").textContent) >= 0.5);
   assert.equal(await page.getAttribute("#play", "aria-label"), "Pause");
   await page.keyboard.press("Space");
-  assert.equal(await page.getAttribute("#play", "aria-label"), "Play");
+  await page.waitForFunction(() => document.getElementById("play").getAttribute("aria-label") === "Play");
   await painted(page);
   const stopped = await clock(page);
   await page.waitForTimeout(250);
