@@ -28,7 +28,7 @@ struct RobotParameters {
     visit("max_speed", self.max_speed, "m/s", Range{0.01, 20.0}, "largest planned speed of the centre");
     visit("max_acceleration", self.max_acceleration, "m/s^2", Range{0.01, 50.0}, "largest planned acceleration");
     visit("max_jerk", self.max_jerk, "m/s^3", Range{0.1, 1000.0}, "largest planned jerk (a soft limit)");
-    visit("max_yaw_rate", self.max_yaw_rate, "rad/s", Range{0.0, 50.0}, "largest planned yaw rate");
+    visit("max_yaw_rate", self.max_yaw_rate, "rad/s", Range{1e-3, 50.0}, "largest planned yaw rate");
     visit("max_yaw_acceleration", self.max_yaw_acceleration, "rad/s^2", Range{0.01, 500.0}, "largest planned yaw acceleration");
     visit("wheel_count", self.wheel_count, "1", Range{3, 3}, "evenly spaced omni wheels");
     visit("first_wheel_angle", self.first_wheel_angle, "rad", Range{-6.3, 6.3}, "angle of wheel 1's axle in the body frame (0 in the paper)");
