@@ -1,4 +1,5 @@
-// The door of planning: one request, one result. Behind it the paper's generator (eq. 9-13) and ours (space-time).
+// The door of planning: one request, one result. Behind it the paper's generator (eq. 9-13) and ours
+// (space-time).
 #pragma once
 
 #include <cstdint>
@@ -22,14 +23,14 @@ enum class PlanOutcome {
 [[nodiscard]] const char* to_string(PlanOutcome outcome);
 
 struct PlanRequest {
-  double time = 0.0;                                            ///< [s] start of the new trajectory
-  FlatState head;                                               ///< state at that time
-  HeadingState heading;                                         ///< heading at that time
-  Eigen::Vector2d goal_world = Eigen::Vector2d::Zero();         ///< [m]
-  std::optional<double> goal_heading;                           ///< [rad], free when absent
-  double position_sigma = 0.0;                                  ///< [m] own pose and tracking uncertainty per axis
+  double time = 0.0;                                     ///< [s] start of the new trajectory
+  FlatState head;                                        ///< state at that time
+  HeadingState heading;                                  ///< heading at that time
+  Eigen::Vector2d goal_world = Eigen::Vector2d::Zero();  ///< [m]
+  std::optional<double> goal_heading;                    ///< [rad], free when absent
+  double position_sigma = 0.0;                           ///< [m] own pose and tracking uncertainty per axis
   WorldSnapshot world;
-  const Trajectory* committed = nullptr;                        ///< plan under way, null after a reset
+  const Trajectory* committed = nullptr;  ///< plan under way, null after a reset
 };
 
 /// One trajectory that was considered, for display and statistics.
@@ -43,22 +44,22 @@ struct Candidate {
 };
 
 struct PlanStats {
-  int optimiser_calls = 0;     ///< L-BFGS runs (the paper's "iterations")
-  int inner_iterations = 0;    ///< L-BFGS iterations in all runs
-  int evaluations = 0;         ///< cost evaluations in all runs
-  int searches = 0;            ///< grid searches
-  int manoeuvres = 0;          ///< rolled-out candidates
-  int side_changes = 0;        ///< in the last seconds, per obstacle the largest
+  int optimiser_calls = 0;   ///< L-BFGS runs (the paper's "iterations")
+  int inner_iterations = 0;  ///< L-BFGS iterations in all runs
+  int evaluations = 0;       ///< cost evaluations in all runs
+  int searches = 0;          ///< grid searches
+  int manoeuvres = 0;        ///< rolled-out candidates
+  int side_changes = 0;      ///< in the last seconds, per obstacle the largest
 };
 
 struct PlanResult {
   PlanOutcome outcome = PlanOutcome::invalid_request;
-  Trajectory trajectory;               ///< always usable: the plan, or the best fallback
-  double risk = 0.0;                   ///< remaining risk of `trajectory`
-  int blocking_track = -1;             ///< id of the obstacle that shapes the plan most, -1 = none
-  int blocking_peer = -1;              ///< likewise, robot number
+  Trajectory trajectory;    ///< always usable: the plan, or the best fallback
+  double risk = 0.0;        ///< remaining risk of `trajectory`
+  int blocking_track = -1;  ///< id of the obstacle that shapes the plan most, -1 = none
+  int blocking_peer = -1;   ///< likewise, robot number
   PlanStats stats;
-  std::vector<Candidate> candidates;   ///< filled when asked for (PlannerParameters::keep_candidates)
+  std::vector<Candidate> candidates;  ///< filled when asked for (PlannerParameters::keep_candidates)
 };
 
 }  // namespace spf
