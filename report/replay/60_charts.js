@@ -125,8 +125,8 @@ class Chart {
       if (!text) continue;
       context.fillStyle = colors.limit;
       context.textAlign = "right";
-      context.textBaseline = value <= 0 ? "bottom" : "top";
-      context.fillText(text, this.width - PAD.right - 2, y + (value <= 0 ? -2 : 3));
+      context.textBaseline = "bottom";
+      context.fillText(text, this.width - PAD.right - 2, y - 2);
     }
   }
 
@@ -204,7 +204,7 @@ const charts = [
   new Chart("wheels", (robot) => {
     const limit = robot?.wheelLimit ?? NaN;
     const bound = Number.isFinite(limit) ? limit : 0;
-    const high = 1.12 * largest(robot?.wheels ?? [], Math.max(bound, 0.05));
+    const high = 1.3 * largest(robot?.wheels ?? [], Math.max(bound, 0.05));
     return {
       lines: (robot?.wheels ?? []).map((values, i) => ({ name: `wheel ${i + 1}`, values, color: `series-${i}`, dash: DASHES[i] })),
       limits: bound > 0 ? [{ value: bound, text: `limit \u00b1${formatted(bound, 2)} m/s` }, { value: -bound }] : [],
