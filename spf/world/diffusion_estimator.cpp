@@ -1,0 +1,187 @@
+#include "spf/world/diffusion_estimator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spf {
+namespace {
+
+constexpr double kShortLag = 0.3;  // [s] of the second differences
+constexpr double kLongLag = 1.0;   // [s]
+
+// Squares of two axes against their expectation, so 1 on average: 3.5 and 7 sigma.
+constexpr double kClip = 6.0;
+constexpr double kSurprise = 25.0;
+
+/// Part of the square that counts: nothing when it is a surprise, unless the one before was a surprise too;
+/// then it is no single event but an expectation that is too low.
+double robust_part(double square, double expected, bool& surprise) {
+  const double ratio = square / std::max(expected, 1e-12);
+  const bool again = surprise;
+  surprise = ratio > kSurprise;
+  if (surprise) return again ? kSurprise / ratio : 0.0;
+  return ratio > kClip ? kClip / ratio : 1.0;
+}
+
+}  // namespace
+
+DiffusionEstimator::DiffusionEstimator(const DiffusionParameters& parameters)
+    : parameters_{validated(parameters)},
+      velocity_diffusion_{parameters.prior_velocity_diffusion},
+      position_diffusion_{parameters.prior_position_diffusion} {}
+
+const DiffusionEstimator::Sighting& DiffusionEstimator::history(int age) const {
+  return ring_[static_cast<std::size_t>((newest_ - age + kHistory) % kHistory)];
+}
+
+void DiffusionEstimator::keep(const Sighting& sighting) {
+  newest_ = (newest_ + 1) % kHistory;
+  ring_[static_cast<std::size_t>(newest_)] = sighting;
+  count_ = std::min(count_ + 1, kHistory);
+}
+
+void DiffusionEstimator::break_off() {
+  count_ = 0;
+  has_velocity_step_ = false;
+}
+
+void DiffusionEstimator::forget(double dt) {
+  const double kept = std::exp(-dt / parameters_.memory);
+  for (double* sum :
+       {&increment_weight_, &velocity_square_, &velocity_lagged_, &position_weight_, &position_square_}) {
+    *sum *= kept;
+  }
+  normal_ *= kept;
+  right_ *= kept;
+}
+
+void DiffusionEstimator::see(double time, const Eigen::Vector2d& position, double position_sigma,
+                             const Eigen::Vector2d& velocity) {
+  const Sighting now{time, position, velocity, position_sigma};
+  if (count_ > 0 && time > history(0).time) {
+    forget(time - history(0).time);
+    learn_from_increment(history(0), now);
+    solve();
+  }
+  keep(now);
+}
+
+void DiffusionEstimator::see(double time, const Eigen::Vector2d& position, double position_sigma) {
+  const Sighting now{time, position, Eigen::Vector2d::Zero(), position_sigma};
+  if (count_ > 0 && time > history(0).time) {
+    const double dt = time - history(0).time;
+    mean_interval_ = mean_interval_ > 0.0 ? mean_interval_ + 0.1 * (dt - mean_interval_) : dt;
+    forget(dt);
+    learn_from_difference(now, kShortLag);
+    learn_from_difference(now, kLongLag);
+    solve();
+  }
+  keep(now);
+}
+
+void DiffusionEstimator::learn_from_increment(const Sighting& last, const Sighting& now) {
+  const double dt = now.time - last.time;
+  mean_interval_ = mean_interval_ > 0.0 ? mean_interval_ + 0.1 * (dt - mean_interval_) : dt;
+  const Eigen::Vector2d step = now.velocity - last.velocity;
+  const double square = 0.5 * step.squaredNorm();
+  const double part =
+      robust_part(square, velocity_diffusion_ * dt + 2.0 * velocity_noise_, velocity_surprise_);
+  if (part > 0.0) {
+    increment_weight_ += dt;
+    increment_time_ += dt;
+    velocity_square_ += part * square;
+    if (has_velocity_step_) velocity_lagged_ += part * 0.5 * step.dot(velocity_step_);
+    velocity_step_ = step;
+  }
+  has_velocity_step_ = part > 0.0;
+
+  const Eigen::Vector2d left = now.position - last.position - 0.5 * dt * (now.velocity + last.velocity);
+  const double noise = last.position_sigma * last.position_sigma + now.position_sigma * now.position_sigma +
+                       0.5 * dt * dt * velocity_noise_;
+  const double expected = position_diffusion_ * dt;
+  const double left_part = robust_part(0.5 * left.squaredNorm(), expected + noise, position_surprise_);
+  if (left_part <= 0.0) return;
+  // What a sample says about the diffusion sinks with the noise that it also holds.
+  const double trust = expected / (expected + noise);
+  position_weight_ += trust * trust * dt;
+  position_square_ += trust * trust * (left_part * 0.5 * left.squaredNorm() - noise);
+}
+
+const DiffusionEstimator::Sighting* DiffusionEstimator::seen_about(double time) const {
+  const Sighting* best = nullptr;
+  for (int age = 0; age < count_; ++age) {
+    const Sighting& sighting = history(age);
+    if (best && std::fabs(sighting.time - time) >= std::fabs(best->time - time)) break;
+    best = &sighting;
+  }
+  return best;
+}
+
+void DiffusionEstimator::learn_from_difference(const Sighting& now, double lag) {
+  const Sighting* middle = seen_about(now.time - lag);
+  if (!middle) return;
+  const double late = now.time - middle->time;
+  const Sighting* first = seen_about(middle->time - late);
+  const double early = middle->time - first->time;
+  const bool close_enough = late > 0.5 * lag && late < 1.5 * lag && early > 0.5 * late && early < 1.5 * late;
+  if (!close_enough) return;
+  const double ratio = late / early;
+  const Eigen::Vector2d difference =
+      now.position - middle->position - ratio * (middle->position - first->position);
+  const double square = 0.5 * difference.squaredNorm();
+  const double noise = now.position_sigma * now.position_sigma +
+                       (1.0 + ratio) * (1.0 + ratio) * middle->position_sigma * middle->position_sigma +
+                       ratio * ratio * first->position_sigma * first->position_sigma;
+  const double per_position = late + ratio * ratio * early;
+  const double per_velocity = (late * late * late + ratio * ratio * early * early * early) / 3.0;
+  const double expected = position_diffusion_ * per_position + velocity_diffusion_ * per_velocity + noise;
+  const double part = robust_part(square, expected, position_surprise_);
+  if (part <= 0.0) return;
+  // In units of the priors, weighted by the inverse variance of the square. Differences overlap: a new one
+  // brings only the part of its span that is new.
+  const Eigen::Vector2d row = Eigen::Vector2d{parameters_.prior_position_diffusion * per_position,
+                                              parameters_.prior_velocity_diffusion * per_velocity} /
+                              expected;
+  const double weight = std::min(1.0, mean_interval_ / late) * late;
+  normal_ += weight * row * row.transpose();
+  right_ += weight * (part * square - noise) / expected * row;
+}
+
+// Prior and data together. Increments tell both diffusions apart, so there the prior soon retires; for the
+// least squares it stays, since noisy positions alone leave the split between the two open.
+void DiffusionEstimator::solve() {
+  double prior = parameters_.prior_duration;
+  double velocity_factor = 1.0;
+  double position_factor = 1.0;
+  if (increment_weight_ > 0.0) {
+    constexpr double kLeast = 0.25;  // [s]
+    prior = std::max(prior * std::exp(-increment_time_ / prior), std::min(prior, kLeast));
+    const double total = prior + increment_weight_;
+    const double square = (prior * parameters_.prior_velocity_diffusion + velocity_square_) / total;
+    const double lagged = velocity_lagged_ / total;
+    // Independent increments have a lagged mean of 0 and pure noise one of -1/2: in between it is noise only
+    // when the cancelling is clear (3 standard deviations for 100 samples).
+    constexpr double kClear = -0.2;
+    const bool noisy = lagged < kClear * square;
+    velocity_noise_ = noisy ? -lagged * mean_interval_ : 0.0;
+    velocity_factor = (noisy ? square + 2.0 * lagged : square) / parameters_.prior_velocity_diffusion;
+    position_factor =
+        (prior + position_square_ / parameters_.prior_position_diffusion) / (prior + position_weight_);
+  } else {
+    const Eigen::Matrix2d normal = normal_ + prior * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d right = right_ + prior * Eigen::Vector2d::Ones();
+    const double determinant = normal(0, 0) * normal(1, 1) - normal(0, 1) * normal(1, 0);
+    position_factor = (right.x() * normal(1, 1) - right.y() * normal(0, 1)) / determinant;
+    velocity_factor = (right.y() * normal(0, 0) - right.x() * normal(1, 0)) / determinant;
+    // When one of the two would be negative, it is nothing, and the other explains all.
+    if (position_factor < 0.0) velocity_factor = right.y() / normal(1, 1);
+    if (velocity_factor < 0.0) position_factor = right.x() / normal(0, 0);
+  }
+  const auto bounded = [this](double factor) {
+    return std::clamp(factor, parameters_.lowest_factor, parameters_.highest_factor);
+  };
+  velocity_diffusion_ = parameters_.prior_velocity_diffusion * bounded(velocity_factor);
+  position_diffusion_ = parameters_.prior_position_diffusion * bounded(position_factor);
+}
+
+}  // namespace spf

@@ -1,0 +1,109 @@
+// How restless a moving obstacle is, learnt from its motion: the diffusion of its position (white velocity
+// noise) and of its velocity (a random walk). Both are needed to say how uncertain its place will be in a
+// second or two.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+
+#include "spf/math/parameters.hpp"
+
+namespace spf {
+
+struct DiffusionParameters {
+  double prior_velocity_diffusion =
+      0.1;  ///< [(m/s)^2/s] 1e-2 (m/s)^2 every 0.1 s: noise level 1 Sigma, kept velocity
+  double prior_position_diffusion =
+      2e-3;                      ///< [m^2/s] 1e-2 * 0.1^2 + 1e-4 m^2 every 0.1 s: 1 Sigma, fresh velocity
+  double prior_duration = 4.0;   ///< [s] of data that the prior is worth at first
+  double memory = 20.0;          ///< [s] time constant of forgetting
+  double lowest_factor = 0.02;   ///< [1] bounds of what is learnt, in priors
+  double highest_factor = 20.0;  ///< [1]
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("prior_velocity_diffusion", self.prior_velocity_diffusion, "m^2/s^3", Range{1e-8, 100.0},
+          "growth of an obstacle's velocity variance before anything is learnt (1 Sigma, walk)");
+    visit("prior_position_diffusion", self.prior_position_diffusion, "m^2/s", Range{1e-9, 10.0},
+          "growth of an obstacle's position variance before anything is learnt (1 Sigma, white)");
+    visit("prior_duration", self.prior_duration, "s", Range{0.1, 1000.0},
+          "seconds of data that the prior is worth");
+    visit("memory", self.memory, "s", Range{0.5, 10000.0},
+          "time constant with which old motion is forgotten");
+    visit("lowest_factor", self.lowest_factor, "1", Range{1e-6, 1.0},
+          "lower bound of a learnt diffusion, in priors");
+    visit("highest_factor", self.highest_factor, "1", Range{1.0, 1e6},
+          "upper bound of a learnt diffusion, in priors");
+  }
+};
+
+/// Learns from sightings of one obstacle in the order of time. Two ways, by what a sighting holds:
+///  - with velocity: the increments of the velocity, and what is left of the position's increments.
+///  Neighbouring
+///    increments that cancel out are noise of the reported velocity, not motion.
+///  - without: second differences of the position over 0.3 s and 1 s, whose variances mix both diffusions
+///  differently:
+///    Dp (t2 + r^2 t1) + Dv (t2^3 + r^2 t1^3) / 3 + (1 + (1 + r)^2 + r^2) sigma^2, r = t2 / t1, fitted by
+///    least squares.
+/// Single surprises (a bounce off a wall) are clipped or left out, so that they do not count as restlessness.
+class DiffusionEstimator {
+ public:
+  explicit DiffusionEstimator(const DiffusionParameters& parameters = {});
+
+  void see(double time, const Eigen::Vector2d& position, double position_sigma,
+           const Eigen::Vector2d& velocity);
+  void see(double time, const Eigen::Vector2d& position, double position_sigma);
+  /// The motion before now has ended (a bounce): differences across it mean nothing.
+  void break_off();
+
+  [[nodiscard]] double velocity_diffusion() const { return velocity_diffusion_; }  ///< [(m/s)^2/s]
+  [[nodiscard]] double position_diffusion() const { return position_diffusion_; }  ///< [m^2/s]
+  [[nodiscard]] double velocity_noise() const {
+    return velocity_noise_;
+  }  ///< [(m/s)^2] of reported velocities
+
+ private:
+  struct Sighting {
+    double time = 0.0;
+    Eigen::Vector2d position = Eigen::Vector2d::Zero();
+    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+    double position_sigma = 0.0;
+  };
+  static constexpr int kHistory = 128;
+
+  void forget(double dt);
+  void learn_from_increment(const Sighting& last, const Sighting& now);
+  void learn_from_difference(const Sighting& now, double lag);
+  void keep(const Sighting& sighting);
+  void solve();
+  [[nodiscard]] const Sighting& history(int age) const;
+  [[nodiscard]] const Sighting* seen_about(double time) const;
+
+  DiffusionParameters parameters_;
+  double velocity_diffusion_;
+  double position_diffusion_;
+  double velocity_noise_ = 0.0;
+
+  // Weighted sums; weights in seconds of data.
+  double increment_time_ = 0.0;  // [s] seen so far, never forgotten
+  double increment_weight_ = 0.0;
+  double velocity_square_ = 0.0;  // of |dv|^2 / (2 dt)
+  double velocity_lagged_ = 0.0;  // of dv . dv_before / (2 dt)
+  double position_weight_ = 0.0;
+  double position_square_ = 0.0;
+  Eigen::Vector2d velocity_step_ = Eigen::Vector2d::Zero();  // [m/s] the increment before
+  bool has_velocity_step_ = false;
+  bool velocity_surprise_ = false;  // the sample before was one
+  bool position_surprise_ = false;
+  double mean_interval_ = 0.0;  // [s]
+  Eigen::Matrix2d normal_ =
+      Eigen::Matrix2d::Zero();  // least squares in units of the priors: (position, velocity)
+  Eigen::Vector2d right_ = Eigen::Vector2d::Zero();
+
+  std::array<Sighting, kHistory> ring_;
+  int newest_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace spf

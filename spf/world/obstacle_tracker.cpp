@@ -1,0 +1,189 @@
+#include "spf/world/obstacle_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spf {
+namespace {
+
+constexpr double kDriftKept = 0.7;  // [1] from one innovation to the next: a drift shows within three
+constexpr double kOneEvent = 2.0;   // [s] surprises closer than this are no single event
+
+bool well_formed(const Detection& detection) {
+  const bool finite = detection.position_world.allFinite() && std::isfinite(detection.radius) &&
+                      std::isfinite(detection.position_sigma) &&
+                      (!detection.velocity_world || detection.velocity_world->allFinite());
+  return finite && detection.radius >= 0.0 && detection.position_sigma >= 0.0;
+}
+
+void predict(ObstacleTrack& track, double time) {
+  const double dt = time - track.time;
+  if (!(dt > 0.0)) return;
+  const double v = track.velocity_variance;
+  const double q = track.velocity_diffusion;
+  track.state.position_world += dt * track.state.velocity_world;
+  track.position_variance +=
+      dt * (2.0 * track.cross_covariance + track.position_diffusion + dt * (v + q * dt / 3.0));
+  track.cross_covariance += dt * (v + 0.5 * q * dt);
+  track.velocity_variance += q * dt;
+  track.time = time;
+}
+
+void correct_position(ObstacleTrack& track, const Eigen::Vector2d& innovation, double noise) {
+  const double innovation_variance = track.position_variance + noise;
+  const double kept = noise / innovation_variance;
+  track.state.position_world += (1.0 - kept) * innovation;
+  track.state.velocity_world += track.cross_covariance / innovation_variance * innovation;
+  track.velocity_variance -= track.cross_covariance * track.cross_covariance / innovation_variance;
+  track.position_variance *= kept;
+  track.cross_covariance *= kept;
+}
+
+void correct_velocity(ObstacleTrack& track, const Eigen::Vector2d& innovation, double noise) {
+  const double innovation_variance = track.velocity_variance + noise;
+  const double kept = noise / innovation_variance;
+  track.state.velocity_world += (1.0 - kept) * innovation;
+  track.state.position_world += track.cross_covariance / innovation_variance * innovation;
+  track.position_variance -= track.cross_covariance * track.cross_covariance / innovation_variance;
+  track.velocity_variance *= kept;
+  track.cross_covariance *= kept;
+}
+
+}  // namespace
+
+ObstacleTracker::ObstacleTracker(const ObstacleTrackerParameters& parameters)
+    : parameters_{validated(parameters)} {}
+
+void ObstacleTracker::update(const Observation& observation) {
+  if (!std::isfinite(observation.time)) {
+    stats_.malformed += observation.detections.size();
+    return;
+  }
+  for (const Detection& detection : observation.detections) {
+    if (well_formed(detection)) {
+      enter(detection, observation.time);
+    } else {
+      ++stats_.malformed;
+    }
+  }
+  for (ObstacleTrack& track : tracks_) predict(track, observation.time);
+  drop_unseen(observation.time);
+}
+
+void ObstacleTracker::enter(const Detection& detection, double time) {
+  const auto place = std::lower_bound(tracks_.begin(), tracks_.end(), detection.id,
+                                      [](const ObstacleTrack& track, int id) { return track.id < id; });
+  const auto slot = static_cast<std::size_t>(place - tracks_.begin());
+  if (place == tracks_.end() || place->id != detection.id) {
+    begin_track(slot, detection, time);
+  } else if (!(time > memories_[slot].last_seen)) {
+    ++stats_.stale;
+    return;
+  } else if (time - memories_[slot].last_seen > parameters_.timeout) {
+    ++stats_.dropped;  // too old to go on from: the same id, a new track
+    tracks_.erase(place);
+    memories_.erase(memories_.begin() + static_cast<std::ptrdiff_t>(slot));
+    begin_track(slot, detection, time);
+  } else {
+    correct(tracks_[slot], memories_[slot], detection, time);
+  }
+  ++stats_.accepted;
+}
+
+void ObstacleTracker::begin_track(std::size_t slot, const Detection& detection, double time) {
+  Memory memory;
+  memory.last_seen = time;
+  memory.diffusion = DiffusionEstimator{parameters_.diffusion};
+  const double sigma = std::max(detection.position_sigma, parameters_.least_sigma);
+  ObstacleTrack track;
+  track.id = detection.id;
+  track.time = time;
+  track.state.position_world = detection.position_world;
+  track.state.radius = detection.radius;
+  track.position_variance = sigma * sigma;
+  if (detection.velocity_world) {
+    track.state.velocity_world = *detection.velocity_world;
+    track.velocity_variance = parameters_.least_sigma * parameters_.least_sigma;
+    track.speed_limit = detection.velocity_world->norm();
+    memory.diffusion.see(time, detection.position_world, detection.position_sigma, *detection.velocity_world);
+  } else {
+    track.velocity_variance = parameters_.initial_speed * parameters_.initial_speed;
+    memory.diffusion.see(time, detection.position_world, detection.position_sigma);
+  }
+  track.position_diffusion = memory.diffusion.position_diffusion();
+  track.velocity_diffusion = memory.diffusion.velocity_diffusion();
+  tracks_.insert(tracks_.begin() + static_cast<std::ptrdiff_t>(slot), track);
+  memories_.insert(memories_.begin() + static_cast<std::ptrdiff_t>(slot), memory);
+}
+
+void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detection& detection, double time) {
+  // 1. predict to the detection
+  const double dt = time - memory.last_seen;
+  predict(track, time);
+  memory.last_seen = time;
+
+  // 2. is it the same motion as before?
+  const double least = parameters_.least_sigma * parameters_.least_sigma;
+  const double position_noise = std::max(detection.position_sigma * detection.position_sigma, least);
+  const double velocity_noise = std::max(memory.diffusion.velocity_noise(), least);
+  const double limit = 2.0 * parameters_.surprise * parameters_.surprise;  // two axes
+  Eigen::Vector2d innovation = detection.position_world - track.state.position_world;
+  memory.drift = kDriftKept * memory.drift + innovation / std::sqrt(track.position_variance + position_noise);
+  bool surprised = (1.0 - kDriftKept * kDriftKept) * memory.drift.squaredNorm() > limit;
+  if (detection.velocity_world) {
+    const Eigen::Vector2d change = *detection.velocity_world - track.state.velocity_world;
+    surprised = surprised || change.squaredNorm() > limit * (track.velocity_variance + velocity_noise);
+  }
+  if (surprised) {
+    ++stats_.surprises;
+    // Once is a bounce; again and again is restlessness, which is to be learnt.
+    if (time - memory.last_surprise > kOneEvent) memory.diffusion.break_off();
+    memory.last_surprise = time;
+    memory.drift.setZero();
+    // What turned round has changed its velocity by up to twice its speed.
+    const double speed = std::max(parameters_.initial_speed, 2.0 * track.state.velocity_world.norm());
+    track.velocity_variance += speed * speed;
+    track.cross_covariance += speed * speed * dt;
+    track.position_variance += speed * speed * dt * dt;
+  }
+
+  // 3. correct
+  correct_position(track, innovation, position_noise);
+  if (detection.velocity_world) {
+    correct_velocity(track, *detection.velocity_world - track.state.velocity_world, velocity_noise);
+  }
+  track.state.radius = detection.radius;
+
+  // 4. learn
+  if (detection.velocity_world) {
+    memory.diffusion.see(time, detection.position_world, detection.position_sigma, *detection.velocity_world);
+  } else {
+    memory.diffusion.see(time, detection.position_world, detection.position_sigma);
+  }
+  if (parameters_.learn_diffusion) {
+    track.position_diffusion = memory.diffusion.position_diffusion();
+    track.velocity_diffusion = memory.diffusion.velocity_diffusion();
+  }
+  const double speed = track.state.velocity_world.norm();
+  track.speed_limit *= std::exp(-dt / parameters_.speed_memory);
+  const bool known_well =
+      track.velocity_variance < 0.05 * parameters_.initial_speed * parameters_.initial_speed;
+  if (known_well) track.speed_limit = std::max(track.speed_limit, speed);
+}
+
+void ObstacleTracker::drop_unseen(double time) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+    if (time - memories_[k].last_seen > parameters_.timeout) continue;
+    if (kept != k) {
+      tracks_[kept] = tracks_[k];
+      memories_[kept] = memories_[k];
+    }
+    ++kept;
+  }
+  stats_.dropped += tracks_.size() - kept;
+  tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(kept), tracks_.end());
+  memories_.erase(memories_.begin() + static_cast<std::ptrdiff_t>(kept), memories_.end());
+}
+
+}  // namespace spf

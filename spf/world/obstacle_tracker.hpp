@@ -1,0 +1,84 @@
+// Moving obstacles from detections: one Kalman filter (constant velocity, both axes alike) per detection id,
+// with the process noise learnt per track. Frame: world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+#include "spf/math/parameters.hpp"
+#include "spf/world/diffusion_estimator.hpp"
+#include "spf/world/observation.hpp"
+#include "spf/world/obstacle_track.hpp"
+
+namespace spf {
+
+struct ObstacleTrackerParameters {
+  double timeout = 2.0;        ///< [s] a track unseen for longer is dropped
+  double initial_speed = 1.0;  ///< [m/s] standard deviation per axis of the velocity of what was seen once
+  double least_sigma = 1e-4;   ///< [m] positions are never taken as more exact
+  double surprise = 3.0;  ///< [1] innovations that drift beyond so many sigma mean a new motion (a bounce)
+  double speed_memory = 60.0;   ///< [s] time constant with which the largest speed is forgotten
+  bool learn_diffusion = true;  ///< false: the priors of `diffusion` are used as they are
+  DiffusionParameters diffusion;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("timeout", self.timeout, "s", Range{0.05, 60.0}, "a track that is unseen for longer is dropped");
+    visit("initial_speed", self.initial_speed, "m/s", Range{0.01, 50.0},
+          "spread of the velocity of a new track");
+    visit("least_sigma", self.least_sigma, "m", Range{1e-6, 1.0},
+          "positions are never taken as more exact than this");
+    visit("surprise", self.surprise, "1", Range{2.0, 20.0},
+          "drift of the innovations in sigmas that starts the velocity afresh");
+    visit("speed_memory", self.speed_memory, "s", Range{1.0, 1e6},
+          "how long the largest speed of a track is remembered");
+    visit("learn_diffusion", self.learn_diffusion, "learn how restless each obstacle is");
+    visit.group("diffusion", self.diffusion);
+  }
+};
+
+struct ObstacleTrackerStats {
+  std::uint64_t accepted = 0;   ///< detections that updated a track
+  std::uint64_t malformed = 0;  ///< not finite, or a radius or sigma out of range
+  std::uint64_t stale = 0;      ///< not newer than the track
+  std::uint64_t surprises = 0;  ///< sudden changes of motion
+  std::uint64_t dropped = 0;    ///< tracks that timed out
+};
+
+class ObstacleTracker {
+ public:
+  /// Throws std::invalid_argument on parameters out of range.
+  explicit ObstacleTracker(const ObstacleTrackerParameters& parameters = {});
+
+  /// Enters the detections of one observation; other tracks are predicted to its time, their uncertainty
+  /// grown.
+  void update(const Observation& observation);
+
+  /// Sorted by id, all at the time of the newest observation.
+  [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
+  [[nodiscard]] const ObstacleTrackerStats& stats() const { return stats_; }
+
+ private:
+  /// What a track needs beside what others see of it; memories_[k] belongs to tracks_[k].
+  struct Memory {
+    double last_seen = 0.0;       // [s]
+    double last_surprise = -1e9;  // [s]
+    Eigen::Vector2d drift =
+        Eigen::Vector2d::Zero();  // fading sum of innovations, each in its standard deviation
+    DiffusionEstimator diffusion;
+  };
+
+  void enter(const Detection& detection, double time);
+  void begin_track(std::size_t slot, const Detection& detection, double time);
+  void correct(ObstacleTrack& track, Memory& memory, const Detection& detection, double time);
+  void drop_unseen(double time);
+
+  ObstacleTrackerParameters parameters_;
+  ObstacleTrackerStats stats_;
+  std::vector<ObstacleTrack> tracks_;
+  std::vector<Memory> memories_;
+};
+
+}  // namespace spf
