@@ -25,8 +25,8 @@ struct Detection {
   double position_sigma = 0.0;                               ///< [m] standard deviation per axis, 0 = exact
 };
 
-/// One sweep of a planar range sensor at the robot's centre. Beam i points at angle_min + i * angle_increment in the
-/// body frame. A beam without a return reads infinity.
+/// One sweep of a planar range sensor at the robot's centre. Beam i points at angle_min + i * angle_increment
+/// in the body frame. A beam without a return reads infinity.
 struct RangeScan {
   double angle_min = 0.0;        ///< [rad]
   double angle_increment = 0.0;  ///< [rad]

@@ -11,8 +11,8 @@ struct Peer {
   double radius = 0.3;          ///< [m]
   double position_sigma = 0.0;  ///< [m]
   double received_time = 0.0;   ///< [s]
-  bool expired = false;         ///< the message is too old: the peer is a disc at its last known place, growing
-  double growth = 0.0;          ///< [m] added to the radius of an expired peer
+  bool expired = false;  ///< the message is too old: the peer is a disc at its last known place, growing
+  double growth = 0.0;   ///< [m] added to the radius of an expired peer
   Trajectory trajectory;
 
   /// Position at an absolute time [m]; for an expired peer the last known place.

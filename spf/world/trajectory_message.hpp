@@ -15,9 +15,10 @@ struct TrajectoryMessage {
   double sent_time = 0.0;      ///< [s]
   double expiry_time = 0.0;    ///< [s] after this the peer is only a disc at its last known place
   double radius = 0.3;         ///< [m] of the robot
-  double position_sigma = 0.0; ///< [m] how far the robot may be from its trajectory (own pose and tracking error)
+  double position_sigma =
+      0.0;  ///< [m] how far the robot may be from its trajectory (own pose and tracking error)
   PeerState state = PeerState::stopped;
-  Trajectory trajectory;       ///< world, absolute time
+  Trajectory trajectory;  ///< world, absolute time
 };
 
 }  // namespace spf

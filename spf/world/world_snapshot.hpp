@@ -11,11 +11,11 @@ namespace spf {
 
 /// A view: the agent owns what it points to and keeps it unchanged while a plan is made.
 struct WorldSnapshot {
-  double time = 0.0;                          ///< [s]
-  int robot_id = 0;                           ///< the robot whose belief this is
-  const OccupancyMap* map = nullptr;          ///< never null when planning
+  double time = 0.0;                  ///< [s]
+  int robot_id = 0;                   ///< the robot whose belief this is
+  const OccupancyMap* map = nullptr;  ///< never null when planning
   const std::vector<ObstacleTrack>* tracks = nullptr;
-  const std::vector<Peer>* peers = nullptr;   ///< sorted by robot_id, without the robot itself
+  const std::vector<Peer>* peers = nullptr;  ///< sorted by robot_id, without the robot itself
 };
 
 }  // namespace spf

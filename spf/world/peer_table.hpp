@@ -1,0 +1,88 @@
+// Teammates as known from their broadcasts: which messages are believed, and what becomes of a peer that
+// falls silent. Frame: world. Time is the receiver's; clocks agree within `clock_tolerance`.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "spf/math/parameters.hpp"
+#include "spf/world/peer.hpp"
+#include "spf/world/trajectory_message.hpp"
+
+namespace spf {
+
+struct PeerTableParameters {
+  double silence = 1.0;         ///< [s] without a message a peer expires, whatever the message promised
+  double growth_rate = 0.3;     ///< [m/s] growth of an expired peer's disc: where it may have gone
+  double largest_growth = 1.0;  ///< [m] the disc grows up to here
+  double forget_time = 10.0;    ///< [s] after expiry the peer is forgotten: from then on only sensing sees it
+  double clock_tolerance = 1.0;  ///< [s] messages from farther in the future are malformed
+  double oldest_message = 10.0;  ///< [s] likewise messages sent longer ago than this
+  double largest_radius = 10.0;  ///< [m] likewise larger robots
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("silence", self.silence, "s", Range{0.05, 60.0}, "without a message for this long a peer expires");
+    visit("growth_rate", self.growth_rate, "m/s", Range{0.0, 20.0},
+          "growth of the radius of an expired peer");
+    visit("largest_growth", self.largest_growth, "m", Range{0.0, 100.0},
+          "largest growth of an expired peer's radius");
+    visit("forget_time", self.forget_time, "s", Range{0.0, 3600.0},
+          "an expired peer is forgotten after this");
+    visit("clock_tolerance", self.clock_tolerance, "s", Range{0.0, 60.0},
+          "largest difference of the robots' clocks");
+    visit("oldest_message", self.oldest_message, "s", Range{0.05, 3600.0},
+          "messages sent longer ago than this are malformed");
+    visit("largest_radius", self.largest_radius, "m", Range{0.01, 100.0},
+          "messages of larger robots are malformed");
+  }
+};
+
+enum class MessageVerdict {
+  accepted,
+  own,        ///< the robot's own message came back
+  duplicate,  ///< the sequence number that is known already
+  old,        ///< an older one: overtaken on the way
+  malformed,  ///< not finite, without a trajectory, out of range
+};
+
+class PeerTable {
+ public:
+  /// Throws std::invalid_argument on parameters out of range.
+  explicit PeerTable(int own_id, const PeerTableParameters& parameters = {});
+
+  /// Checks a message and, when good, makes it what is known of its sender. `now` [s] is the time of arrival.
+  /// A sender that has been silent long enough to expire may start its sequence afresh (it was restarted).
+  MessageVerdict receive(const TrajectoryMessage& message, double now);
+
+  /// Everybody known at this time, sorted by robot_id; drops who is forgotten. The reference holds until the
+  /// next call.
+  const std::vector<Peer>& peers(double now);
+
+  /// How many messages got this verdict.
+  [[nodiscard]] std::uint64_t count(MessageVerdict verdict) const {
+    return counts_[static_cast<std::size_t>(verdict)];
+  }
+
+ private:
+  struct Entry {
+    Peer peer;
+    std::uint32_t sequence = 0;
+    double expiry_time = 0.0;  // [s] as the message said, at most `silence` after its arrival
+  };
+
+  [[nodiscard]] MessageVerdict judge(const TrajectoryMessage& message, double now) const;
+  [[nodiscard]] bool well_formed(const TrajectoryMessage& message, double now) const;
+  [[nodiscard]] const Entry* find(int robot_id) const;
+
+  int own_id_;
+  PeerTableParameters parameters_;
+  std::vector<Entry> entries_;  // sorted by robot_id
+  std::vector<Peer> peers_;
+  std::array<std::uint64_t, 5> counts_{};
+};
+
+}  // namespace spf
