@@ -1,0 +1,70 @@
+// Watches a trial for contacts, tick by tick, and for how near things came (protocol sections 2, 5 and 6).
+// Frame: world.
+#pragma once
+
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "sim/contact.hpp"
+#include "sim/movers.hpp"
+#include "sim/robot_truth.hpp"
+
+namespace spf::sim {
+
+class ContactMonitor {
+ public:
+  explicit ContactMonitor(const Scenario& scenario);
+
+  /// One tick, from `time` to time + dt [s]: the movers go from share_from to share_to of their step, the
+  /// robots along their `motion`. Contacts found are appended to contacts(), by time within the tick.
+  struct Tick {
+    double time;
+    double dt;
+    double share_from;
+    double share_to;
+  };
+  void check(const Tick& tick, const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
+
+  [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
+  /// Recorded people who walked into a robot that had stood still for a second; they do not react, so it is
+  /// no contact of the robot's making.
+  [[nodiscard]] const std::vector<Contact>& hits_while_standing() const { return hits_while_standing_; }
+
+  // Over the time so far, of robots that had not yet arrived; infinite when there was nothing to come near
+  // to.
+  [[nodiscard]] double dynamic_distance() const { return dynamic_distance_; }    ///< [m] centre to centre
+  [[nodiscard]] double dynamic_clearance() const { return dynamic_clearance_; }  ///< [m] minus radii
+  [[nodiscard]] double peer_clearance() const { return peer_clearance_; }  ///< [m] exact below kNearPeer
+
+  static constexpr double kNearPeer = 1.0;  ///< [m] clearance from which peers are not looked at
+
+  [[nodiscard]] const StaticShapes& shapes() const { return shapes_; }
+
+ private:
+  void check_movers(const Tick& tick, std::size_t robot, const RobotTruth& truth,
+                    const std::vector<Mover>& movers);
+  void check_peers(const Tick& tick, const std::vector<RobotTruth>& robots);
+  void touch_person(std::size_t robot, const Mover& mover, const Contact& contact);
+  void forgive_newcomers(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
+  void note_standing(double dt, const std::vector<RobotTruth>& robots);
+  [[nodiscard]] Contact contact_of(const Tick& tick, double share, std::size_t robot,
+                                   const RobotTruth& truth) const;
+
+  double robot_radius_;  // [m]
+  StaticShapes shapes_;
+  std::vector<Eigen::Vector2d> centers_;  // of the robots at the tick's start, for the grid
+  UniformGrid grid_;
+  std::vector<Contact> contacts_;
+  std::vector<Contact> hits_while_standing_;
+  std::vector<double> standing_time_;            // [s] by robot
+  std::set<int> people_present_;                 // ids in the last tick
+  std::set<std::pair<int, int>> forgiven_;       // (robot, person): appeared too near, not yet gone
+  std::set<std::pair<int, int>> being_hit_;      // (robot, person): counted once while it lasts
+  std::set<std::pair<int, int>> wrecked_pairs_;  // robots that lie in each other
+  double dynamic_distance_;
+  double dynamic_clearance_;
+  double peer_clearance_;
+};
+
+}  // namespace spf::sim

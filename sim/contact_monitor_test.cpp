@@ -1,0 +1,129 @@
+#include "sim/contact_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace spf::sim {
+namespace {
+
+constexpr double kDt = 0.005;  // [s]
+
+/// A trial in which robots and movers are put where the test wants them, tick by tick.
+class Stage {
+ public:
+  explicit Stage(std::size_t robots) : robots_(robots) { scenario_.robots.resize(robots); }
+  void put(std::size_t robot, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    robots_[robot].motion = {from, to};
+    robots_[robot].velocity_world = (to - from) / kDt;
+  }
+  void put_person(int id, const Eigen::Vector2d& at) { movers_ = {{id, true, 0.25, {at, at}, {0.0, 0.0}}}; }
+  void put_disc(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    movers_ = {{0, false, 0.4, {from, to}, (to - from) / Movers::kStep}};
+  }
+  void clear_movers() { movers_.clear(); }
+  RobotTruth& robot(std::size_t index) { return robots_[index]; }
+  ContactMonitor& run(double seconds = kDt, double share_from = 0.0) {
+    const int ticks = static_cast<int>(std::lround(seconds / kDt));
+    for (int i = 0; i < ticks; ++i, time_ += kDt)
+      monitor_.check({time_, kDt, share_from, share_from + 0.05}, robots_, movers_);
+    return monitor_;
+  }
+
+ private:
+  Scenario scenario_;
+  std::vector<RobotTruth> robots_;
+  std::vector<Mover> movers_;
+  ContactMonitor monitor_{scenario_with(robots_.size())};
+  double time_ = 0.0;
+
+  static Scenario scenario_with(std::size_t robots) {
+    Scenario scenario;
+    scenario.robots.resize(robots);
+    return scenario;
+  }
+};
+
+TEST(ContactMonitor, RecordsWhoWithWhatWhenAndHowFast) {
+  Stage stage{2};
+  stage.put(0, {10.0, 0.0}, {10.0, 0.0});
+  stage.put(1, {0.0, 0.0}, {0.005, 0.0});  // 1 m/s
+  stage.put_disc({0.752, 0.0},
+                 {0.652, 0.0});  // towards it with 1 m/s: 0.005 m in this tick's part of the step
+  const ContactMonitor& monitor = stage.run();  // gap 0.052 at first, 0.042 at its end: no contact
+  EXPECT_TRUE(monitor.contacts().empty());
+  EXPECT_NEAR(monitor.dynamic_distance(), 0.742, 1e-12);
+  EXPECT_NEAR(monitor.dynamic_clearance(), 0.042, 1e-12);
+  stage.put(1, {0.045, 0.0}, {0.050, 0.0});
+  stage.run(kDt, 0.0);  // 0.707 -> 0.697 within the tick; touches at 0.7 after 0.7 of it
+  ASSERT_EQ(monitor.contacts().size(), 1U);
+  const Contact& contact = monitor.contacts()[0];
+  EXPECT_EQ(contact.robot, 1);
+  EXPECT_EQ(contact.with, ContactWith::disc);
+  EXPECT_EQ(contact.other, 0);
+  EXPECT_NEAR(contact.time, kDt + 0.7 * kDt, 1e-9);
+  EXPECT_NEAR(contact.robot_speed, 1.0, 1e-9);
+  EXPECT_NEAR(contact.other_speed, 1.0, 1e-9);
+}
+
+TEST(ContactMonitor, FastRobotsDoNotJumpThroughEachOther) {
+  Stage stage{2};
+  stage.put(0, {-1.0, 0.0}, {1.0, 0.0});
+  stage.put(1, {1.0, 0.1}, {-1.0, 0.1});
+  const ContactMonitor& monitor = stage.run();
+  ASSERT_EQ(monitor.contacts().size(), 1U);
+  EXPECT_EQ(monitor.contacts()[0].with, ContactWith::robot);
+  EXPECT_EQ(monitor.contacts()[0].other, 1);
+  // They are 2 (1 - 2 share) apart along x: sum of radii 0.6 at share (1 - sqrt(0.36 - 0.01) / 2) / 2.
+  EXPECT_NEAR(monitor.contacts()[0].time, kDt * 0.5 * (1.0 - 0.5 * std::sqrt(0.35)), 1e-12);
+  EXPECT_NEAR(monitor.peer_clearance(), 0.1 - 0.6, 1e-12);
+}
+
+TEST(ContactMonitor, MeetsOnlyWhatTravels) {
+  Stage stage{1};
+  stage.put(0, {0.0, 0.0}, {0.0, 0.0});
+  stage.robot(0).arrived = true;
+  stage.put_disc({1.0, 0.0}, {1.0, 0.0});
+  EXPECT_TRUE(std::isinf(stage.run().dynamic_distance()));
+  stage.put_disc({0.5, 0.0}, {0.5, 0.0});
+  EXPECT_EQ(stage.run().contacts().size(), 1U);  // contacts count after arrival, too
+}
+
+TEST(ContactMonitor, PeopleWhoWalkIntoAStandingRobotCountApartAndOnce) {
+  Stage stage{1};
+  stage.put(0, {0.0, 0.0}, {0.0, 0.0});
+  stage.put_person(7, {3.0, 0.0});
+  stage.run(1.1);
+  stage.put_person(7, {0.5, 0.0});
+  const ContactMonitor& monitor = stage.run(0.5);
+  EXPECT_TRUE(monitor.contacts().empty());
+  ASSERT_EQ(monitor.hits_while_standing().size(), 1U);
+  EXPECT_EQ(monitor.hits_while_standing()[0].with, ContactWith::person);
+  EXPECT_EQ(monitor.hits_while_standing()[0].other, 7);
+}
+
+TEST(ContactMonitor, PeopleWhoMeetAMovingRobotAreContacts) {
+  Stage stage{1};
+  stage.put_person(7, {3.0, 0.0});
+  stage.put(0, {0.0, 0.0}, {0.005, 0.0});
+  stage.run(1.1);
+  stage.put_person(7, {0.5, 0.0});
+  EXPECT_EQ(stage.run().contacts().size(), 1U);
+}
+
+TEST(ContactMonitor, PeopleWhoAppearTooNearAreForgivenUntilTheyHaveLeft) {
+  Stage stage{1};
+  stage.put(0, {0.0, 0.0}, {0.005, 0.0});
+  stage.run();
+  stage.put_person(7, {1.4, 0.0});
+  stage.run();
+  stage.put_person(7, {0.4, 0.0});
+  EXPECT_TRUE(stage.run().contacts().empty());
+  stage.put_person(7, {1.6, 0.0});
+  stage.run();
+  stage.put_person(7, {0.4, 0.0});
+  EXPECT_EQ(stage.run().contacts().size(), 1U);
+}
+
+}  // namespace
+}  // namespace spf::sim

@@ -1,0 +1,39 @@
+// Everything that moves in a trial and is no robot: the scenario's discs and its recorded crowd, in steps of
+// 0.1 s within which each moves linearly. Frame: world.
+#pragma once
+
+#include <vector>
+
+#include "sim/contact.hpp"
+#include "sim/crowd.hpp"
+#include "sim/moving_obstacles.hpp"
+
+namespace spf::sim {
+
+struct Mover {
+  int id = 0;  ///< of the detector: discs 0, 1, 2, ...; people follow after the last disc
+  bool person = false;
+  double radius = 0.0;                                       ///< [m]
+  Motion motion;                                             ///< over the current step
+  Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s] what an exact detector reports
+};
+
+class Movers {
+ public:
+  static constexpr double kStep = MovingObstacles::kStep;  ///< [s]
+
+  explicit Movers(const Scenario& scenario);
+
+  /// Begins the step at `time` [s], a multiple of kStep.
+  void advance(double time);
+
+  [[nodiscard]] const std::vector<Mover>& all() const { return movers_; }
+
+ private:
+  MovingObstacles discs_;
+  Crowd crowd_;
+  double person_radius_;  // [m]
+  std::vector<Mover> movers_;
+};
+
+}  // namespace spf::sim

@@ -1,0 +1,103 @@
+// Everything that a replay of a trial shows, in frames of 0.1 s: the truth, what every robot believed and
+// planned, and what happened. Plain data. Frame: world, SI.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/scenario.hpp"
+#include "spf/team/robot_agent.hpp"
+
+namespace spf::sim {
+
+/// Gap to the nearest thing of one kind, radii taken off; `other` is its id, -1 = none. Infinite when there
+/// is none.
+struct RecordedClearance {
+  double distance = 0.0;  ///< [m]
+  int other = -1;
+};
+
+struct RecordedTrack {
+  int id = 0;
+  ObstacleState state;  ///< as believed, at the frame's time
+  double sigma = 0.0;   ///< [m] of the position, per axis
+};
+
+struct RecordedRobot {
+  Pose2 pose;                                                ///< the truth
+  Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]
+  AgentEstimate estimate;
+  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();    ///< [m/s] true rim speeds
+  Eigen::Vector3d wheel_commands = Eigen::Vector3d::Zero();  ///< [m/s] as commanded
+  AgentStatus status;
+  bool wrecked = false;
+  RecordedClearance to_mover, to_peer, to_static;
+  double control_us = 0.0;  ///< [us] of the last control tick, 0 without a clock
+  std::vector<RecordedTrack> tracks;
+};
+
+struct RecordedMover {
+  int id = 0;
+  bool person = false;
+  ObstacleState state;
+};
+
+struct RecordedFrame {
+  double time = 0.0;  ///< [s]
+  std::vector<RecordedRobot> robots;
+  std::vector<RecordedMover> movers;
+};
+
+struct RecordedPoint {
+  double time = 0.0;  ///< [s]
+  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();
+};
+
+struct RecordedCandidate {
+  Candidate::Kind kind = Candidate::Kind::optimised;
+  double cost = 0.0;
+  double risk = 0.0;
+  bool chosen = false;
+  std::vector<RecordedPoint> points;
+};
+
+/// One planning call.
+struct RecordedPlan {
+  double time = 0.0;  ///< [s]
+  int robot = 0;
+  PlanOutcome outcome = PlanOutcome::success;
+  double risk = 0.0;
+  PlanStats stats;
+  double plan_ms = 0.0;               ///< [ms] 0 without a clock
+  std::vector<RecordedPoint> points;  ///< of the committed trajectory, from now on
+  std::vector<RecordedCandidate> candidates;
+};
+
+/// Cells of a robot's own map, by their numbers in its grid.
+struct RecordedCells {
+  double time = 0.0;  ///< [s]
+  int robot = 0;
+  std::vector<Eigen::Vector2i> added, removed;
+};
+
+struct RecordedEvent {
+  enum class Kind { contact, hit_while_standing, stop, go, arrival };
+  double time = 0.0;  ///< [s]
+  int robot = -1;
+  Kind kind = Kind::stop;
+  std::string text;                                          ///< the reason, or what was touched
+  int other = -1;                                            ///< id of the culprit, -1 = none
+  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m] of the robot
+};
+
+struct Recording {
+  Scenario scenario;
+  double frame_interval = 0.1;  ///< [s]
+  GridFrame map_frame;          ///< of the robots' maps: a cell is centred on its node
+  std::vector<RecordedFrame> frames;
+  std::vector<RecordedPlan> plans;    ///< by time
+  std::vector<RecordedCells> cells;   ///< by time
+  std::vector<RecordedEvent> events;  ///< by time
+};
+
+}  // namespace spf::sim

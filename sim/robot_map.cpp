@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sim/simulation.hpp"
+
+namespace spf::sim {
+namespace {
+
+constexpr double kOpenMargin = 8.0;   // [m] around everything, where there is no border
+constexpr double kMaxNodes = 0x1p24;  // of a map; larger places get a coarser one
+
+/// A thin wall as points so close that the distance between two of them cannot be told from the wall's: at a
+/// distance d they read at most (resolution / 8)^2 / (2 d) too much.
+void add_wall(OccupancyMap& map, const Segment& wall) {
+  const double spacing = 0.25 * map.frame().resolution;
+  const int steps = std::max(1, static_cast<int>(std::ceil((wall.to - wall.from).norm() / spacing)));
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    map.add_disc(wall.from + share * (wall.to - wall.from), 0.0);
+  }
+}
+
+Box extent_of(const Scenario& scenario) {
+  if (scenario.border) return *scenario.border;
+  Box extent{scenario.robots.front().start.position_world, scenario.robots.front().start.position_world};
+  const auto include = [&extent](const Eigen::Vector2d& point) {
+    extent.low = extent.low.cwiseMin(point);
+    extent.high = extent.high.cwiseMax(point);
+  };
+  for (const RobotTask& task : scenario.robots) {
+    include(task.start.position_world);
+    include(task.goal_world);
+  }
+  for (const Box& box : scenario.boxes) {
+    include(box.low);
+    include(box.high);
+  }
+  for (const Pillar& pillar : scenario.pillars) include(pillar.center);
+  for (const Segment& wall : scenario.walls) {
+    include(wall.from);
+    include(wall.to);
+  }
+  extent.low -= Eigen::Vector2d::Constant(kOpenMargin);
+  extent.high += Eigen::Vector2d::Constant(kOpenMargin);
+  return extent;
+}
+
+}  // namespace
+
+OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& parameters) {
+  const SensingParameters& sensing = scenario.simulation.sensing;
+  const Box extent = extent_of(scenario);
+  const Eigen::Vector2d size = extent.high - extent.low;
+  const double resolution = std::max(sensing.map_resolution, std::sqrt(size.x() * size.y() / kMaxNodes));
+  const GridFrame frame = GridFrame::covering(extent.low, extent.high, resolution);
+  OccupancyMap map{frame, std::max(sensing.map_max_distance, 4.0 * resolution), parameters};
+  if (scenario.border) map.add_border(scenario.border->low, scenario.border->high);
+  if (sensing.map == MapKnowledge::sensed) return map;
+  for (const Box& box : scenario.boxes) map.add_box(box.low, box.high);
+  for (const Pillar& pillar : scenario.pillars) map.add_disc(pillar.center, pillar.radius);
+  for (const Segment& wall : scenario.walls) add_wall(map, wall);
+  return map;
+}
+
+AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent) {
+  agent.robot = scenario.robot;
+  agent.ideal_tracking = scenario.simulation.trial.tracking == TrackingMode::ideal;
+  agent.team.goal_tolerance =
+      std::min(agent.team.goal_tolerance, 0.5 * scenario.simulation.trial.arrival_distance);
+  return agent;
+}
+
+}  // namespace spf::sim

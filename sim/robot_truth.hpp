@@ -1,0 +1,17 @@
+// Where a robot really is. Frame: world.
+#pragma once
+
+#include "sim/contact.hpp"
+#include "spf/math/pose2.hpp"
+
+namespace spf::sim {
+
+struct RobotTruth {
+  Pose2 pose;
+  Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]
+  Motion motion;                                             ///< over the last tick
+  bool arrived = false;                                      ///< has been at its goal once
+  bool wrecked = false;                                      ///< stands after a contact (AfterContact::wreck)
+};
+
+}  // namespace spf::sim

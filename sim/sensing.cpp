@@ -1,0 +1,130 @@
+#include "sim/sensing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/geometry.hpp"
+#include "spf/math/angles.hpp"
+
+namespace spf::sim {
+
+Sensing::Sensing(const Scenario& scenario)
+    : parameters_{scenario.simulation.sensing},
+      pose_noise_{scenario.simulation.pose_noise},
+      seams_{scenario.seams},
+      robot_radius_{scenario.robot.radius},
+      range_sensor_{scenario},
+      observations_(scenario.robots.size(), 0) {
+  for (std::uint64_t robot = 0; robot < scenario.robots.size(); ++robot) {
+    pose_channels_.push_back({RandomStream{stream_seed(scenario, StreamRole::pose, robot)},
+                              RandomStream{stream_seed(scenario, StreamRole::seam, robot)}});
+    detection_seeds_.push_back(stream_seed(scenario, StreamRole::detection, robot));
+    scan_noise_.emplace_back(stream_seed(scenario, StreamRole::scan, robot));
+  }
+}
+
+PoseMeasurement Sensing::measure_pose(int robot, double time, const Pose2& truth_world) {
+  PoseChannel& channel = pose_channels_[static_cast<std::size_t>(robot)];
+  PoseMeasurement measurement{time, truth_world};
+  const Eigen::Vector2d position_noise = channel.noise.normal2();
+  const double heading_noise = channel.noise.normal();
+  measurement.pose_world.position_world +=
+      pose_noise_.position_sigma * position_noise + seam_offset(channel, time, truth_world.position_world);
+  measurement.pose_world.heading =
+      wrap_angle(truth_world.heading + pose_noise_.heading_sigma * heading_noise);
+  return measurement;
+}
+
+Eigen::Vector2d Sensing::seam_offset(PoseChannel& channel, double time, const Eigen::Vector2d& position) {
+  if (seams_.empty()) return Eigen::Vector2d::Zero();
+  const auto remaining = [&] {
+    const double age = time - channel.jump_time;
+    return age < pose_noise_.seam_duration ? 1.0 - age / pose_noise_.seam_duration : 0.0;
+  };
+  const Segment path{channel.started ? channel.last_position : position, position};
+  for (const Segment& seam : seams_) {
+    if (path.from == path.to || !segments_cross(path, seam)) continue;
+    const Eigen::Vector2d left_over = channel.jump * remaining();
+    channel.jump = left_over + pose_noise_.seam_sigma * channel.seam_noise.normal2();
+    channel.jump_time = time;
+  }
+  channel.started = true;
+  channel.last_position = position;
+  return channel.jump * remaining();
+}
+
+void Sensing::observe(int robot, const Pose2& truth_world, const Surroundings& surroundings,
+                      Observation& observation) {
+  observation.time = surroundings.time;
+  observation.detections.clear();
+  detect_all(robot, truth_world.position_world, surroundings, observation);
+  if (parameters_.map == MapKnowledge::sensed) {
+    if (!observation.scan) observation.scan.emplace();
+    scan(robot, truth_world, surroundings, *observation.scan);
+  } else {
+    observation.scan.reset();
+  }
+  ++observations_[static_cast<std::size_t>(robot)];
+}
+
+/// Its noise is drawn from (robot, obstacle, number of the observation) alone, so that what else is in range,
+/// or has been, does not change it.
+Detection Sensing::detect(int robot, int id, const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
+                          double radius) const {
+  Detection detection;
+  detection.id = id;
+  detection.radius = radius;
+  detection.position_world = position;
+  if (parameters_.detections == DetectionQuality::exact) {
+    detection.velocity_world = velocity;
+    return detection;
+  }
+  const auto index = static_cast<std::size_t>(robot);
+  RandomStream noise{mix(mix(detection_seeds_[index], static_cast<std::uint64_t>(id)), observations_[index])};
+  detection.position_world += parameters_.position_sigma * noise.normal2();
+  detection.position_sigma = parameters_.position_sigma;
+  return detection;
+}
+
+void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings,
+                         Observation& observation) {
+  for (const Mover& mover : *surroundings.movers) {
+    const Eigen::Vector2d position = mover.motion.at(surroundings.share);
+    if ((position - from).norm() > parameters_.range) continue;
+    observation.detections.push_back(detect(robot, mover.id, position, mover.velocity_world, mover.radius));
+  }
+  const double reach = parameters_.peer_detection_range;
+  if (reach <= 0.0) return;
+  const auto first_peer = static_cast<std::ptrdiff_t>(observation.detections.size());
+  surroundings.robot_grid->visit(from, reach, [&](int peer) {
+    const Eigen::Vector2d& position = (*surroundings.robots)[static_cast<std::size_t>(peer)];
+    if (peer == robot || (position - from).norm() > reach) return;
+    Detection detection =
+        detect(robot, kPeerDetectionId + peer, position, Eigen::Vector2d::Zero(), robot_radius_);
+    detection.velocity_world.reset();  // seen, not told: the tracker has to find it
+    observation.detections.push_back(detection);
+  });
+  std::sort(observation.detections.begin() + first_peer, observation.detections.end(),
+            [](const Detection& a, const Detection& b) { return a.id < b.id; });
+}
+
+void Sensing::scan(int robot, const Pose2& truth_world, const Surroundings& surroundings, RangeScan& scan) {
+  const Eigen::Vector2d& from = truth_world.position_world;
+  seen_.clear();
+  for (const Mover& mover : *surroundings.movers)
+    seen_.push_back({mover.motion.at(surroundings.share), mover.radius});
+  if (parameters_.peers_block_beams)
+    surroundings.robot_grid->visit(from, parameters_.range + robot_radius_, [&](int peer) {
+      if (peer != robot)
+        seen_.push_back({(*surroundings.robots)[static_cast<std::size_t>(peer)], robot_radius_});
+    });
+  range_sensor_.sweep(truth_world, seen_, scan);
+  RandomStream& noise = scan_noise_[static_cast<std::size_t>(robot)];
+  if (parameters_.range_sigma <= 0.0) return;
+  for (double& range : scan.ranges) {
+    const double error = parameters_.range_sigma * noise.normal();  // drawn for every beam, returned or not
+    range = std::max(range + error, 1e-3);                          // infinity stays infinity
+  }
+}
+
+}  // namespace spf::sim

@@ -1,0 +1,68 @@
+// What the robots' sensors report of the truth (protocol section 4): own pose with its noise and seams,
+// moving obstacles in range, range scans. Every noise comes from a stream of its own role and robot. Frame:
+// world.
+#pragma once
+
+#include <vector>
+
+#include "sim/movers.hpp"
+#include "sim/range_sensor.hpp"
+#include "sim/uniform_grid.hpp"
+#include "spf/math/random_stream.hpp"
+#include "spf/world/observation.hpp"
+
+namespace spf::sim {
+
+/// Detections of other robots (SensingParameters::peer_detection_range) carry this plus the robot's number.
+inline constexpr int kPeerDetectionId = 1'000'000;
+
+/// The true surroundings at one instant.
+struct Surroundings {
+  double time = 0.0;   ///< [s]
+  double share = 0.0;  ///< of the movers' current step, in [0, 1)
+  const std::vector<Mover>* movers = nullptr;
+  const std::vector<Eigen::Vector2d>* robots = nullptr;  ///< [m] centres
+  const UniformGrid* robot_grid = nullptr;               ///< over `robots`
+};
+
+class Sensing {
+ public:
+  explicit Sensing(const Scenario& scenario);
+
+  /// The measured pose of a robot whose true pose is given. Call it once per robot and pose tick.
+  [[nodiscard]] PoseMeasurement measure_pose(int robot, double time, const Pose2& truth_world);
+
+  /// What the robot sees from its true pose, into `observation`, whose memory is used again.
+  void observe(int robot, const Pose2& truth_world, const Surroundings& surroundings,
+               Observation& observation);
+
+ private:
+  struct PoseChannel {
+    RandomStream noise;
+    RandomStream seam_noise;
+    bool started = false;
+    Eigen::Vector2d last_position = Eigen::Vector2d::Zero();  // [m] true
+    Eigen::Vector2d jump = Eigen::Vector2d::Zero();           // [m] at jump_time
+    double jump_time = 0.0;                                   // [s]
+  };
+  [[nodiscard]] Eigen::Vector2d seam_offset(PoseChannel& channel, double time,
+                                            const Eigen::Vector2d& position);
+  [[nodiscard]] Detection detect(int robot, int id, const Eigen::Vector2d& position,
+                                 const Eigen::Vector2d& velocity, double radius) const;
+  void detect_all(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings,
+                  Observation& observation);
+  void scan(int robot, const Pose2& truth_world, const Surroundings& surroundings, RangeScan& scan);
+
+  SensingParameters parameters_;
+  PoseNoiseParameters pose_noise_;
+  std::vector<Segment> seams_;
+  double robot_radius_;  // [m]
+  RangeSensor range_sensor_;
+  std::vector<PoseChannel> pose_channels_;      // by robot
+  std::vector<std::uint64_t> detection_seeds_;  // by robot
+  std::vector<RandomStream> scan_noise_;        // by robot
+  std::vector<std::uint64_t> observations_;     // made so far, by robot
+  std::vector<SeenDisc> seen_;                  // of the scan under way, kept for its memory
+};
+
+}  // namespace spf::sim

@@ -1,0 +1,240 @@
+#include "sim/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/families.hpp"
+#include "sim/geometry.hpp"
+
+namespace spf::sim {
+namespace {
+
+/// One robot crosses 10 m of an empty field.
+Scenario lone_robot(TrackingMode tracking) {
+  Scenario scenario;
+  scenario.border = square(Eigen::Vector2d::Zero(), 20.0);
+  RobotTask task;
+  task.start = {{-5.0, 1.0}, 0.0};
+  task.goal_world = {5.0, 1.0};
+  scenario.robots = {task};
+  scenario.simulation.trial.tracking = tracking;
+  return scenario;
+}
+
+TrialResult run(const Scenario& scenario, const SimulationOptions& options = {}) {
+  return Simulation{scenario, AgentParameters{}, options}.run();
+}
+
+TrialResult run_recorded(const Scenario& scenario) {
+  SimulationOptions options;
+  options.record = true;
+  return run(scenario, options);
+}
+
+class Tracking : public testing::TestWithParam<TrackingMode> {};
+
+TEST_P(Tracking, ALoneRobotArrivesByTheStraightWay) {
+  const TrialResult result = run(lone_robot(GetParam()));
+  EXPECT_EQ(result.outcome, TrialOutcome::success);
+  ASSERT_EQ(result.robots.size(), 1U);
+  EXPECT_TRUE(result.robots[0].arrived);
+  EXPECT_GT(result.robots[0].travel_time, 9.9);  // no robot covers 9.9 m faster at 1 m/s
+  EXPECT_LT(result.robots[0].travel_time_ratio, 2.0);
+  EXPECT_NEAR(result.robots[0].path_length_ratio, 0.99, 0.02);  // it has arrived 0.1 m before the goal
+  EXPECT_EQ(result.last_arrival, result.robots[0].travel_time);
+  EXPECT_TRUE(std::isinf(result.dynamic_distance));
+  EXPECT_TRUE(result.plan_ms.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Both, Tracking, testing::Values(TrackingMode::ideal, TrackingMode::full),
+                         [](const auto& which) { return std::string{enum_name(which.param)}; });
+
+TEST(Simulation, RepeatsBitForBitAndTakesNoNoticeOfClockOrRecording) {
+  Scenario scenario = make_scenario(family_setup(Family::t2), kDefaultSeed, 10000);
+  scenario.simulation.noise.level = 1.0;
+  scenario.simulation.trial.time_limit = 5.0;
+  const TrialResult first = run(scenario);
+  const TrialResult again = run(scenario);
+  SimulationOptions options;
+  options.record = true;
+  double seconds = 0.0;
+  options.clock = [&seconds] { return seconds += 1e-6; };
+  const TrialResult watched = run(scenario, options);
+  EXPECT_NE(first.digest, 0U);
+  EXPECT_EQ(first.digest, again.digest);
+  EXPECT_EQ(first.digest, watched.digest);
+  EXPECT_FALSE(watched.plan_ms.empty());
+  EXPECT_FALSE(watched.control_us.empty());
+  EXPECT_GT(watched.wall_seconds, 0.0);
+
+  scenario.seed += 1;
+  EXPECT_NE(first.digest, run(scenario).digest);
+}
+
+/// Positions of the moving obstacles in every frame.
+std::vector<Eigen::Vector2d> mover_path(const Scenario& scenario) {
+  std::vector<Eigen::Vector2d> path;
+  const TrialResult result = run_recorded(scenario);
+  for (const RecordedFrame& frame : result.recording->frames)
+    for (const RecordedMover& mover : frame.movers) path.push_back(mover.state.position_world);
+  return path;
+}
+
+TEST(Simulation, NoRobotSensorOrRadioMovesTheObstacles) {
+  Scenario scenario = make_scenario(family_setup(Family::t2), kDefaultSeed, 10001);
+  scenario.simulation.noise.level = 1.0;
+  scenario.simulation.noise.model = NoiseModel::walk;
+  scenario.simulation.trial.time_limit = 3.0;
+  scenario.simulation.trial.after_contact = AfterContact::wreck;  // so that all run equally long
+  const std::vector<Eigen::Vector2d> plain = mover_path(scenario);
+  ASSERT_GT(plain.size(), 100U);
+  scenario.simulation.pose_noise.position_sigma = 0.02;
+  scenario.simulation.sensing.detections = DetectionQuality::noisy;
+  scenario.simulation.sensing.map = MapKnowledge::sensed;
+  scenario.simulation.sensing.range_sigma = 0.01;
+  scenario.simulation.radio.loss = 0.2;
+  scenario.simulation.trial.tracking = TrackingMode::ideal;
+  scenario.robots.pop_back();
+  EXPECT_EQ(plain, mover_path(scenario));
+}
+
+/// A disc faster than any robot comes from the side and meets the robot wherever it is: the whole width is
+/// filled.
+Scenario doomed_robot() {
+  Scenario scenario = lone_robot(TrackingMode::full);
+  scenario.border = Box{{-6.0, 0.0}, {8.0, 2.0}};
+  ObstacleState disc;
+  disc.position_world = {4.0, 1.0};
+  disc.velocity_world = {-2.0, 0.0};
+  disc.radius = 0.95;
+  scenario.discs = {disc};
+  return scenario;
+}
+
+TEST(Simulation, AContactEndsTheTrialAndIsRecorded) {
+  const TrialResult result = run_recorded(doomed_robot());
+  EXPECT_EQ(result.outcome, TrialOutcome::collision);
+  ASSERT_EQ(result.contacts.size(), 1U);
+  EXPECT_EQ(result.contacts[0].with, ContactWith::disc);
+  EXPECT_NEAR(result.contacts[0].other_speed, 2.0, 0.05);
+  EXPECT_NEAR(result.contacts[0].time, result.sim_seconds, 0.0051);  // within the last tick
+  EXPECT_LE(result.dynamic_clearance, 0.0);
+  EXPECT_FALSE(result.robots[0].arrived);
+  const auto is_contact = [](const RecordedEvent& event) {
+    return event.kind == RecordedEvent::Kind::contact;
+  };
+  EXPECT_EQ(std::count_if(result.recording->events.begin(), result.recording->events.end(), is_contact), 1);
+}
+
+TEST(Simulation, WrecksStayAndTheOthersGoOn) {
+  Scenario scenario = doomed_robot();
+  scenario.border = Box{{-6.0, 0.0}, {8.0, 30.0}};
+  scenario.boxes = {{{-6.0, 2.0}, {8.0, 3.0}}};  // two lanes
+  RobotTask safe;
+  safe.start = {{-5.0, 20.0}, 0.0};
+  safe.goal_world = {5.0, 20.0};
+  scenario.robots.push_back(safe);
+  scenario.simulation.trial.after_contact = AfterContact::wreck;
+  const TrialResult result = run_recorded(scenario);
+  EXPECT_EQ(result.outcome, TrialOutcome::collision);
+  EXPECT_EQ(result.contacts.size(), 1U);
+  EXPECT_TRUE(result.robots[0].wrecked);
+  EXPECT_FALSE(result.robots[0].arrived);
+  EXPECT_TRUE(result.robots[1].arrived);
+  const double crash = result.contacts[0].time;
+  std::vector<Eigen::Vector2d> places;
+  for (const RecordedFrame& frame : result.recording->frames)
+    if (frame.time > crash + 0.01) places.push_back(frame.robots[0].pose.position_world);
+  ASSERT_GT(places.size(), 10U);
+  EXPECT_EQ(places.front(), places.back());
+}
+
+TEST(Simulation, TimeRunsOut) {
+  Scenario scenario = lone_robot(TrackingMode::full);
+  scenario.simulation.trial.time_limit = 2.0;
+  const TrialResult result = run(scenario);
+  EXPECT_EQ(result.outcome, TrialOutcome::overtime);
+  EXPECT_NEAR(result.sim_seconds, 2.0, 1e-9);
+  EXPECT_FALSE(result.robots[0].arrived);
+}
+
+TEST(Simulation, TheCallerCanStopIt) {
+  SimulationOptions options;
+  options.progress = [](double time) { return time < 0.95; };
+  EXPECT_NEAR(run(lone_robot(TrackingMode::full), options).sim_seconds, 1.005, 1e-9);
+}
+
+TEST(Simulation, RefusesWhatCannotRunWithAllReasons) {
+  Scenario scenario = lone_robot(TrackingMode::full);
+  scenario.robots[0].goal_world = {30.0, 0.0};
+  scenario.simulation.radio.delay = std::nan("");
+  try {
+    (void)run(scenario);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string{error.what()}.find("robots[0].goal"), std::string::npos) << error.what();
+    EXPECT_NE(std::string{error.what()}.find("radio.delay"), std::string::npos) << error.what();
+  }
+}
+
+/// From a place to the nearest surface of what a beam can have hit at about that time: a square, a robot, the
+/// disc.
+double distance_to_anything(const Eigen::Vector2d& place, const Scenario& scenario, double time,
+                            const Recording& recording) {
+  double nearest = 1e9;
+  for (const Box& box : scenario.boxes) nearest = std::min(nearest, distance_to_box(place, box));
+  for (const RecordedFrame& frame : recording.frames) {
+    if (std::abs(frame.time - time) > 0.45) continue;  // a few sweeps make a cell occupied
+    for (const RecordedRobot& robot : frame.robots)
+      nearest = std::min(nearest, (robot.pose.position_world - place).norm() - scenario.robot.radius);
+    for (const RecordedMover& mover : frame.movers)
+      nearest = std::min(nearest, (mover.state.position_world - place).norm() - mover.state.radius);
+  }
+  return nearest;
+}
+
+TEST(Simulation, RecordsWhatAReplayShows) {
+  Scenario scenario = make_scenario(family_setup(Family::f7), kDefaultSeed, 10000);
+  scenario.simulation.trial.time_limit = 2.0;
+  const TrialResult result = run_recorded(scenario);
+  const Recording& recording = *result.recording;
+  ASSERT_GE(recording.frames.size(), 20U);
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    EXPECT_NEAR(recording.frames[i].time, 0.1 * static_cast<double>(i), 1e-9);
+    EXPECT_EQ(recording.frames[i].robots.size(), 12U);
+    EXPECT_EQ(recording.frames[i].movers.size(), 1U);
+  }
+  EXPECT_GE(recording.plans.size(), 12U);
+  for (const RecordedPlan& plan : recording.plans) EXPECT_FALSE(plan.points.empty());
+  ASSERT_FALSE(recording.cells.empty());
+  for (const RecordedCells& update : recording.cells)
+    for (const Eigen::Vector2i& cell : update.added) {
+      const Eigen::Vector2d place =
+          recording.map_frame.origin_world + recording.map_frame.resolution * cell.cast<double>();
+      EXPECT_LT(distance_to_anything(place, scenario, update.time, recording), 0.4);
+    }
+  for (std::size_t i = 1; i < recording.events.size(); ++i)
+    EXPECT_LE(recording.events[i - 1].time, recording.events[i].time + 0.1);
+}
+
+TEST(RobotMap, KnowsTheStaticShapesOnlyWhenTheyAreKnown) {
+  Scenario scenario = lone_robot(TrackingMode::full);
+  scenario.boxes = {square({2.0, 2.0}, 1.0)};
+  scenario.pillars = {{{-2.0, -2.0}, 0.5}};
+  scenario.walls = {{{-3.0, 5.0}, {3.0, 6.0}}};
+  const OccupancyMap known = robot_map(scenario, {});
+  EXPECT_NEAR(known.distance({2.0, 3.2}), 0.7, 1e-5);
+  EXPECT_NEAR(known.distance({-2.0, -3.0}), 0.5, 1e-2);
+  EXPECT_NEAR(known.distance({0.0, 5.1}), distance_to_segment({0.0, 5.1}, scenario.walls[0]), 5e-3);
+  EXPECT_NEAR(known.distance({9.5, 0.0}), 0.5, 1e-5);
+  scenario.simulation.sensing.map = MapKnowledge::sensed;
+  const OccupancyMap empty = robot_map(scenario, {});
+  EXPECT_NEAR(empty.distance({2.0, 2.0}), empty.max_distance(), 1e-5);
+  EXPECT_NEAR(empty.distance({9.5, 0.0}), 0.5, 1e-5);  // the border is the place itself
+}
+
+}  // namespace
+}  // namespace spf::sim

@@ -1,0 +1,105 @@
+#include "sim/trial_meter.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "spf/math/random_stream.hpp"
+
+namespace spf::sim {
+namespace {
+
+std::uint64_t bits_of(double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+}  // namespace
+
+const char* to_string(TrialOutcome outcome) {
+  switch (outcome) {
+    case TrialOutcome::success:
+      return "success";
+    case TrialOutcome::collision:
+      return "collision";
+    case TrialOutcome::overtime:
+      return "overtime";
+  }
+  return "?";
+}
+
+TrialMeter::TrialMeter(const Scenario& scenario)
+    : tasks_{scenario.robots},
+      robot_{scenario.robot},
+      parameters_{scenario.simulation.trial},
+      robots_(scenario.robots.size()) {
+  for (RobotResult& robot : robots_) robot.static_clearance = StaticShapes::kFar;
+}
+
+const std::vector<int>& TrialMeter::moved(double time, std::vector<RobotTruth>& robots) {
+  arrivals_.clear();
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    RobotTruth& truth = robots[i];
+    if (truth.arrived) continue;
+    robots_[i].path_length += (truth.motion.to - truth.motion.from).norm();
+    robots_[i].travel_time = time;
+    const double to_goal = (truth.pose.position_world - tasks_[i].goal_world).norm();
+    if (truth.wrecked || to_goal > parameters_.arrival_distance ||
+        truth.velocity_world.norm() >= parameters_.arrival_speed)
+      continue;
+    truth.arrived = true;
+    arrivals_.push_back(static_cast<int>(i));
+  }
+  return arrivals_;
+}
+
+void TrialMeter::planned(int robot, const PlanResult& plan) {
+  RobotResult& result = robots_[static_cast<std::size_t>(robot)];
+  ++result.plans;
+  if (plan.outcome != PlanOutcome::success && plan.outcome != PlanOutcome::goal_reached)
+    ++result.failed_plans;
+  result.optimiser_calls += plan.stats.optimiser_calls;
+  result.inner_iterations += plan.stats.inner_iterations;
+  result.evaluations += plan.stats.evaluations;
+  result.manoeuvres += plan.stats.manoeuvres;
+}
+
+void TrialMeter::stood(int robot, const AgentStatus& status, double duration) {
+  if (status.reason == StandReason::none || status.reason == StandReason::arrived) return;
+  robots_[static_cast<std::size_t>(robot)].stood[static_cast<std::size_t>(status.reason)] += duration;
+}
+
+void TrialMeter::clearances(const std::vector<RobotTruth>& robots, const StaticShapes& shapes) {
+  for (std::size_t i = 0; i < robots.size(); ++i)
+    if (!robots[i].arrived)
+      robots_[i].static_clearance = std::min(robots_[i].static_clearance,
+                                             shapes.clearance(robots[i].pose.position_world, robot_.radius));
+}
+
+void TrialMeter::digest(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers) {
+  const auto add = [this](const Eigen::Vector2d& position) {
+    digest_ = mix(digest_ ^ bits_of(position.x()), bits_of(position.y()));
+  };
+  for (const RobotTruth& truth : robots) add(truth.pose.position_world);
+  for (const Mover& mover : movers) add(mover.motion.from);
+}
+
+void TrialMeter::finish(double time, const std::vector<RobotTruth>& robots, TrialResult& result) {
+  result.sim_seconds = time;
+  result.digest = digest_;
+  result.static_clearance = StaticShapes::kFar;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    RobotResult& robot = robots_[i];
+    robot.arrived = robots[i].arrived;
+    robot.wrecked = robots[i].wrecked;
+    const double straight = (tasks_[i].goal_world - tasks_[i].start.position_world).norm();
+    const double fastest = rest_to_rest_time(straight, robot_.max_speed, robot_.max_acceleration);
+    robot.path_length_ratio = straight > 0.0 ? robot.path_length / straight : 1.0;
+    robot.travel_time_ratio = fastest > 0.0 ? robot.travel_time / fastest : 1.0;
+    if (robot.arrived) result.last_arrival = std::max(result.last_arrival, robot.travel_time);
+    result.static_clearance = std::min(result.static_clearance, robot.static_clearance);
+  }
+  result.robots = std::move(robots_);
+}
+
+}  // namespace spf::sim

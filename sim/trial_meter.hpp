@@ -1,0 +1,40 @@
+// Adds up the figures of a trial while it runs (protocol section 6).
+#pragma once
+
+#include <vector>
+
+#include "sim/movers.hpp"
+#include "sim/robot_truth.hpp"
+#include "sim/trial_result.hpp"
+
+namespace spf::sim {
+
+class TrialMeter {
+ public:
+  explicit TrialMeter(const Scenario& scenario);
+
+  /// The robots have moved along their `motion` and it is now `time` [s]. Sets `arrived` of those that
+  /// arrive; returns their numbers, valid until the next call.
+  const std::vector<int>& moved(double time, std::vector<RobotTruth>& robots);
+  /// A planning call of a robot ended.
+  void planned(int robot, const PlanResult& plan);
+  /// For `duration` [s] the robot has had this status.
+  void stood(int robot, const AgentStatus& status, double duration);
+  /// Least static clearance.
+  void clearances(const std::vector<RobotTruth>& robots, const StaticShapes& shapes);
+  /// All positions now, into the digest.
+  void digest(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
+
+  /// Fills what was metered into the result; the trial ended at `time` [s].
+  void finish(double time, const std::vector<RobotTruth>& robots, TrialResult& result);
+
+ private:
+  std::vector<RobotTask> tasks_;
+  RobotParameters robot_;
+  TrialParameters parameters_;
+  std::vector<RobotResult> robots_;
+  std::vector<int> arrivals_;
+  std::uint64_t digest_ = 0;
+};
+
+}  // namespace spf::sim

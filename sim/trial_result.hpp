@@ -1,0 +1,61 @@
+// What a trial came to (protocol section 6).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/contact.hpp"
+#include "sim/recording.hpp"
+#include "spf/team/robot_agent.hpp"
+
+namespace spf::sim {
+
+enum class TrialOutcome { success, collision, overtime };
+[[nodiscard]] const char* to_string(TrialOutcome outcome);
+
+inline constexpr std::size_t kStandReasons = static_cast<std::size_t>(StandReason::paused) + 1;
+
+/// Of one robot. Lengths and times count until it first arrived, or to the end of the trial.
+struct RobotResult {
+  bool arrived = false;
+  bool wrecked = false;
+  double travel_time = 0.0;          ///< [s]
+  double path_length = 0.0;          ///< [m] of the true path
+  double travel_time_ratio = 0.0;    ///< [1] over the obstacle-free rest-to-rest optimum
+  double path_length_ratio = 0.0;    ///< [1] over the straight line
+  int plans = 0;                     ///< planning calls
+  int failed_plans = 0;              ///< of them, outcome other than success or goal_reached
+  std::int64_t optimiser_calls = 0;  ///< L-BFGS runs (the paper's iterations)
+  std::int64_t inner_iterations = 0;
+  std::int64_t evaluations = 0;
+  std::int64_t manoeuvres = 0;
+  double static_clearance = 0.0;              ///< [m] least, minus the radius; at most StaticShapes::kFar
+  std::array<double, kStandReasons> stood{};  ///< [s] by StandReason; `arrived` and `none` stay 0
+};
+
+struct TrialResult {
+  int trial = 0;
+  TrialOutcome outcome = TrialOutcome::overtime;
+  std::vector<Contact> contacts;             ///< by time; only the first, where a contact ends the trial
+  std::vector<Contact> hits_while_standing;  ///< by recorded people who do not react
+  std::vector<RobotResult> robots;
+  double last_arrival = 0.0;  ///< [s] of the robots that arrived
+  double dynamic_distance =
+      0.0;  ///< [m] least centre distance to a mover while travelling; infinite without movers
+  double dynamic_clearance = 0.0;  ///< [m] likewise minus the radii
+  double peer_clearance = 0.0;     ///< [m] least gap between robots; infinite when never below 1 m
+  double static_clearance = 0.0;   ///< [m] least gap to static shapes and border
+  double sim_seconds = 0.0;        ///< [s] simulated
+  double wall_seconds = 0.0;       ///< [s] by the caller's clock, 0 without
+  std::vector<float> plan_ms;  ///< [ms] every planning call with what it had to take in; empty without clock
+  std::vector<float>
+      control_us;              ///< [us] every control tick with the poses since the last; empty without clock
+  std::uint64_t messages = 0;  ///< broadcasts sent
+  std::uint64_t digest = 0;    ///< hash over the bits of all positions at every 0.1 s
+  std::shared_ptr<const Recording> recording;  ///< null unless asked for
+};
+
+}  // namespace spf::sim
