@@ -1,0 +1,261 @@
+#include "spf/tracking/box_lq.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "spf/tracking/box_lq_stage.hpp"
+
+namespace spf {
+namespace {
+
+using namespace box_lq;  // NOLINT: the arithmetic of the stages, of this solver alone
+
+// Of the residual against the size of the gradient's parts: their rounding is some 1e-14 of it.
+constexpr double kRelativeTolerance = 1e-11;
+constexpr double kAbsoluteTolerance = 1e-10;
+constexpr int kFallbackSteps = 40;
+
+}  // namespace
+
+Vector3d bound_violation(const BoxLqProblem& problem, const Vector3d& state) {
+  return (state - problem.upper).cwiseMax(0.0) - (problem.lower - state).cwiseMax(0.0);
+}
+
+double box_lq_cost(const BoxLqProblem& problem, const StateSequence& states, const InputSequence& inputs) {
+  double cost = 0.0;
+  for (int k = 0; k < problem.steps; ++k) {
+    const BoxLqStage& stage = problem.stages[index(k)];
+    const Vector3d& state = states[index(k + 1)];
+    const Vector3d error = state - stage.reference;
+    cost += error.dot(problem.state_weight.cwiseProduct(error));
+    cost += problem.slack_weight * bound_violation(problem, state).squaredNorm();
+    cost += problem.effort_weight * (inputs[index(k)] - stage.input_reference).squaredNorm();
+    if (problem.rate_weight > 0.0) {
+      const Vector3d& before = k > 0 ? inputs[index(k - 1)] : problem.previous_input;
+      cost += problem.rate_weight * (inputs[index(k)] - before).squaredNorm();
+    }
+  }
+  return cost;
+}
+
+double BoxLqSolver::optimality_residual(const BoxLqProblem& problem, const StateSequence& states,
+                                        const InputSequence& inputs) {
+  compute_gradient(problem, states, inputs, problem.slack_weight);
+  return residual(problem, inputs);
+}
+
+// The adjoint: gradient of the cost by every input, the states following from the inputs.
+void BoxLqSolver::compute_gradient(const BoxLqProblem& problem, const StateSequence& states,
+                                   const InputSequence& inputs, double slack_weight) {
+  gradient_scale_ = 0.0;
+  Vector3d adjoint = Vector3d::Zero();
+  for (int k = problem.steps - 1; k >= 0; --k) {
+    const BoxLqStage& stage = problem.stages[index(k)];
+    const Vector3d& state = states[index(k + 1)];
+    const Vector3d violation = bound_violation(problem, state);
+    Vector3d& by_state = state_gradient_[index(k + 1)];
+    by_state =
+        2.0 * problem.state_weight.cwiseProduct(state - stage.reference) + 2.0 * slack_weight * violation;
+    state_curvature_[index(k + 1)] = 2.0 * problem.state_weight;
+    for (int i = 0; i < 3; ++i)
+      if (violation[i] != 0.0) state_curvature_[index(k + 1)][i] += 2.0 * slack_weight;
+    adjoint += by_state;  // now the derivative by z_{k+1}
+
+    Vector3d& gradient = gradient_[index(k)];
+    gradient = stage.input_matrix.transpose() * adjoint;
+    gradient_scale_ = std::max(gradient_scale_, adjoint.cwiseAbs().maxCoeff());
+    gradient += 2.0 * problem.effort_weight * (inputs[index(k)] - stage.input_reference);
+    if (problem.rate_weight > 0.0) {
+      const Vector3d& before = k > 0 ? inputs[index(k - 1)] : problem.previous_input;
+      gradient += 2.0 * problem.rate_weight * (inputs[index(k)] - before);
+      if (k + 1 < problem.steps)
+        gradient -= 2.0 * problem.rate_weight * (inputs[index(k + 1)] - inputs[index(k)]);
+    }
+    adjoint = transposed(stage, adjoint);
+  }
+}
+
+double BoxLqSolver::residual(const BoxLqProblem& problem, const InputSequence& inputs) const {
+  double largest = 0.0;
+  for (int k = 0; k < problem.steps; ++k) {
+    const Vector3d moved =
+        clipped(inputs[index(k)] - gradient_[index(k)], problem.input_limit) - inputs[index(k)];
+    largest = std::max(largest, moved.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+void BoxLqSolver::hold_inputs_at_bounds(const BoxLqProblem& problem, const InputSequence& inputs) {
+  const double bound =
+      (1.0 - 1e-13) * problem.input_limit;  // a step that ends on the limit may round to beside it
+  for (int k = 0; k < problem.steps; ++k)
+    for (int i = 0; i < 3; ++i) {
+      const double input = inputs[index(k)][i];
+      const double gradient = gradient_[index(k)][i];
+      held_[index(k)][static_cast<std::size_t>(i)] =
+          (input >= bound && gradient < 0.0) || (input <= -bound && gradient > 0.0);
+    }
+}
+
+// Newton step of the free inputs as a feedback law. The value function of the steps from the current iterate
+// is a quadratic in the state's step and, with a rate weight, the previous input's step.
+template <bool kRate>
+void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence& inputs) {
+  const double rate = problem.rate_weight;
+  const double own_curvature = 2.0 * (problem.effort_weight + (kRate ? rate : 0.0));
+  Matrix3d value_zz = state_curvature_[index(problem.steps)].asDiagonal();
+  Vector3d value_z = state_gradient_[index(problem.steps)];
+  Matrix3d value_zv = Matrix3d::Zero();
+  Matrix3d value_vv = Matrix3d::Zero();
+  Vector3d value_v = Vector3d::Zero();
+
+  for (int k = problem.steps - 1; k >= 0; --k) {
+    const BoxLqStage& stage = problem.stages[index(k)];
+    const Matrix3d& b = stage.input_matrix;
+    Feedback& feedback = feedback_[index(k)];
+    Vector3d change = Vector3d::Zero();
+    if constexpr (kRate) change = inputs[index(k)] - (k > 0 ? inputs[index(k - 1)] : problem.previous_input);
+
+    Matrix3d cross = b.transpose() * value_zz;  // d2 / du dz', z' the next state
+    Matrix3d curvature = cross * b;
+    curvature.diagonal().array() += own_curvature;
+    Vector3d gradient = 2.0 * problem.effort_weight * (inputs[index(k)] - stage.input_reference);
+    gradient.noalias() += b.transpose() * value_z;
+    if constexpr (kRate) {
+      const Matrix3d mixed = b.transpose() * value_zv;
+      curvature += mixed + mixed.transpose() + value_vv;
+      cross += value_zv.transpose();
+      gradient += 2.0 * rate * change + value_v;
+    }
+    Matrix3d by_state = times_transition(cross, stage);
+    Matrix3d by_previous = Matrix3d::Zero();
+    if constexpr (kRate) by_previous.diagonal().setConstant(-2.0 * rate);
+
+    for (int i = 0; i < 3; ++i) {
+      if (!held_[index(k)][static_cast<std::size_t>(i)]) continue;
+      curvature.row(i).setZero();
+      curvature.col(i).setZero();
+      curvature(i, i) = 1.0;
+      gradient[i] = 0.0;
+      by_state.row(i).setZero();
+      by_previous.row(i).setZero();
+    }
+    Cholesky3& factor = factors_[index(k)];
+    factor = Cholesky3{curvature};
+    feedback.step = -factor.solve(gradient);
+    if (k > 0 || kRate) {
+      feedback.by_state = -factor.solve(by_state);
+    } else {
+      feedback.by_state.setZero();
+    }
+    if constexpr (kRate) feedback.by_previous_input = -factor.solve(by_previous);
+    if (k == 0) return;
+
+    value_zz = transition_times(stage, times_transition(value_zz, stage));
+    value_zz.noalias() += by_state.transpose() * feedback.by_state;
+    value_zz = (0.5 * (value_zz + value_zz.transpose())).eval();
+    value_zz.diagonal() += state_curvature_[index(k)];
+    value_z = (transposed(stage, value_z) + by_state.transpose() * feedback.step + state_gradient_[index(k)])
+                  .eval();
+    if constexpr (kRate) {
+      value_zv.noalias() = by_state.transpose() * feedback.by_previous_input;
+      value_vv.noalias() = by_previous.transpose() * feedback.by_previous_input;
+      value_vv.diagonal().array() += 2.0 * rate;
+      value_v = -2.0 * rate * change + by_previous.transpose() * feedback.step;
+    }
+  }
+}
+
+// Fills the steps of inputs and states and returns the slope of the cost along them. clip_first: later inputs
+// answer to the clipping of earlier ones, the better guess. Otherwise the scaled Newton direction is
+// projected on the box, which is a descent direction for a small enough scale (Bertsekas' projected Newton
+// method).
+double BoxLqSolver::candidate(const BoxLqProblem& problem, const InputSequence& inputs, double scale,
+                              bool clip_first) {
+  double slope = 0.0;
+  Vector3d answered = Vector3d::Zero();  // the state step that the feedback sees
+  Vector3d answered_input = Vector3d::Zero();
+  state_steps_[0].setZero();
+  for (int k = 0; k < problem.steps; ++k) {
+    const BoxLqStage& stage = problem.stages[index(k)];
+    const Feedback& feedback = feedback_[index(k)];
+    const Vector3d& input = inputs[index(k)];
+    Vector3d newton = feedback.step;
+    newton.noalias() += feedback.by_state * answered;
+    if (problem.rate_weight > 0.0) newton.noalias() += feedback.by_previous_input * answered_input;
+    Vector3d& step = input_steps_[index(k)];
+    step = clipped(input + scale * newton, problem.input_limit) - input;
+    state_steps_[index(k + 1)] = advance(stage, state_steps_[index(k)], step);
+    answered = clip_first ? state_steps_[index(k + 1)] : advance(stage, answered, newton);
+    answered_input = clip_first ? step : newton;
+    slope += gradient_[index(k)].dot(step);
+  }
+  return slope;
+}
+
+// Leaves the result of the candidate steps in the trial sequences; true when the cost falls as its slope
+// promises.
+bool BoxLqSolver::improves(const BoxLqProblem& problem, const InputSequence& inputs, double cost,
+                           double slope) {
+  if (!(slope < 0.0)) return false;
+  trial_states_[0] = states_[0];
+  for (int k = 0; k < problem.steps; ++k) {
+    trial_inputs_[index(k)] = clipped(inputs[index(k)] + input_steps_[index(k)], problem.input_limit);
+    trial_states_[index(k + 1)] = states_[index(k + 1)] + state_steps_[index(k + 1)];
+  }
+  constexpr double kShare = 1e-3;  // of the promised decrease; a rounding of the cost is forgiven
+  return box_lq_cost(problem, trial_states_, trial_inputs_) <= cost + kShare * slope + 1e-15 * cost;
+}
+
+BoxLqOutcome BoxLqSolver::solve(const BoxLqProblem& problem, InputSequence& inputs, int max_steps) {
+  assert(1 <= problem.steps && problem.steps <= kMaxHorizon);
+  BoxLqOutcome outcome;
+  dual_inputs_ = inputs;
+  outcome.solved = solve_dual(problem, dual_inputs_, max_steps, outcome.active_set_steps);
+  if (outcome.solved) {
+    for (int k = 0; k < problem.steps; ++k)  // a bound is met to rounding
+      inputs[index(k)] = clipped(dual_inputs_[index(k)], problem.input_limit);
+    return outcome;
+  }
+  forget();
+  outcome.fell_back = true;
+  outcome.solved = refine(problem, inputs, kFallbackSteps);
+  return outcome;
+}
+
+void BoxLqSolver::roll_out(const BoxLqProblem& problem, const InputSequence& inputs) {
+  states_[0] = problem.initial;
+  for (int k = 0; k < problem.steps; ++k) {
+    const BoxLqStage& stage = problem.stages[index(k)];
+    states_[index(k + 1)] = advance(stage, states_[index(k)], inputs[index(k)]) + stage.offset;
+  }
+}
+
+bool BoxLqSolver::refine(const BoxLqProblem& problem, InputSequence& inputs, int max_steps) {
+  for (int k = 0; k < problem.steps; ++k) inputs[index(k)] = clipped(inputs[index(k)], problem.input_limit);
+  roll_out(problem, inputs);
+  for (int steps = 0;; ++steps) {
+    compute_gradient(problem, states_, inputs, problem.slack_weight);
+    const double tolerance = kAbsoluteTolerance + kRelativeTolerance * gradient_scale_;
+    if (residual(problem, inputs) <= tolerance) return true;
+    if (steps == max_steps) return false;
+
+    hold_inputs_at_bounds(problem, inputs);
+    if (problem.rate_weight > 0.0)
+      riccati_sweep<true>(problem, inputs);
+    else
+      riccati_sweep<false>(problem, inputs);
+
+    const double cost = box_lq_cost(problem, states_, inputs);
+    bool better = improves(problem, inputs, cost, candidate(problem, inputs, 1.0, true));
+    for (double scale = 1.0; !better && scale > 1e-12; scale *= 0.5)
+      better = improves(problem, inputs, cost, candidate(problem, inputs, scale, false));
+    // No descent left above rounding.
+    if (!better) return residual(problem, inputs) <= 1e3 * tolerance;
+    inputs = trial_inputs_;
+    states_ = trial_states_;
+  }
+}
+
+}  // namespace spf

@@ -1,0 +1,162 @@
+// A finite-horizon linear-quadratic problem with hard bounds on the inputs and quadratically soft bounds on
+// the states: one Gauss-Newton step of the MPC (eq. 19). Solved by a dual active set in range-space form: one
+// Riccati factorisation without bounds, then one Riccati solve per bound that becomes active; a soft bound
+// differs from a hard one by a term on the diagonal of the small Schur matrix. If that does not settle in
+// time, a projected Newton method takes over, whose every iterate is feasible and no worse than the one
+// before.
+//
+//   minimise   sum_{k=1..H} |z_k - reference_k|_Q^2 + slack_weight |violation of [lower, upper] by z_k|^2
+//            + sum_{k=0..H-1} effort_weight |u_k - input_reference_k|^2 + rate_weight |u_k - u_{k-1}|^2
+//   subject to z_{k+1} = A_k z_k + B_k u_k + c_k,  |u_k| <= input_limit, z_0 and u_{-1} given (z_0 is never
+//   bounded).
+//
+// A_k is the identity but for the heading's column: z = (x, y, heading), u = three wheel speeds.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+
+#include "spf/tracking/cholesky3.hpp"
+#include "spf/tracking/reference_sampler.hpp"
+
+namespace spf {
+
+struct BoxLqStage {
+  double x_by_heading = 0.0;  ///< A(0, 2)
+  double y_by_heading = 0.0;  ///< A(1, 2)
+  Eigen::Matrix3d input_matrix;
+  Eigen::Vector3d offset;
+  Eigen::Vector3d reference;        ///< for z_{k+1}
+  Eigen::Vector3d input_reference;  ///< for u_k
+};
+
+struct BoxLqProblem {
+  int steps = 0;  ///< H, 1..kMaxHorizon
+  Eigen::Vector3d initial;
+  Eigen::Vector3d previous_input;
+  Eigen::Vector3d state_weight;  ///< diagonal of Q, > 0
+  double effort_weight = 0.0;
+  double rate_weight = 0.0;
+  double slack_weight = 0.0;
+  double input_limit = 0.0;
+  Eigen::Vector3d lower;  ///< may be -infinity
+  Eigen::Vector3d upper;  ///< may be +infinity
+  std::array<BoxLqStage, kMaxHorizon> stages;
+};
+
+using InputSequence = std::array<Eigen::Vector3d, kMaxHorizon>;
+using StateSequence = std::array<Eigen::Vector3d, kMaxHorizon + 1>;
+
+/// Signed violation of the soft bounds, per component.
+[[nodiscard]] Eigen::Vector3d bound_violation(const BoxLqProblem& problem, const Eigen::Vector3d& state);
+
+/// Cost of states and inputs, whatever model they obey.
+[[nodiscard]] double box_lq_cost(const BoxLqProblem& problem, const StateSequence& states,
+                                 const InputSequence& inputs);
+
+struct BoxLqOutcome {
+  bool solved = false;       ///< to rounding; else the inputs are feasible and the best found
+  bool fell_back = false;    ///< the projected Newton method had to take over
+  int active_set_steps = 0;  ///< bounds taken up or dropped
+};
+
+/// Fixed memory; construct once, solve often.
+class BoxLqSolver {
+ public:
+  /// Replaces `inputs`, any guess, by the minimiser. The bounds that were active at the last minimum are
+  /// tried first.
+  BoxLqOutcome solve(const BoxLqProblem& problem, InputSequence& inputs, int max_steps);
+  /// Drops the memory of active bounds. It changes the work, not the minimum.
+  void forget() { active_count_ = 0; }
+
+  /// The projected Newton method alone: improves `inputs`, first clipped to the limit. True when at the
+  /// minimum.
+  bool refine(const BoxLqProblem& problem, InputSequence& inputs, int max_steps);
+
+  /// Largest component of P(u - gradient) - u with P the projection on the input bounds: zero exactly at a
+  /// minimiser. Where the stages linearise a nonlinear model at these states and inputs, it is that problem's
+  /// residual too.
+  double optimality_residual(const BoxLqProblem& problem, const StateSequence& states,
+                             const InputSequence& inputs);
+
+ private:
+  struct Feedback {
+    Eigen::Vector3d step;
+    Eigen::Matrix3d by_state;
+    Eigen::Matrix3d by_previous_input;
+  };
+  /// One side of one bound, as sign * value >= sign * bound. Inputs are those of step `stage`, states
+  /// z_{stage + 1}.
+  struct Bound {
+    int stage = 0;
+    int component = 0;
+    bool on_input = true;
+    double sign = 1.0;
+    bool operator==(const Bound& other) const {
+      return stage == other.stage && component == other.component && on_input == other.on_input &&
+             sign == other.sign;
+    }
+  };
+  /// Change of inputs and states by a unit multiplier of a bound.
+  struct Response {
+    InputSequence inputs;
+    StateSequence states;
+  };
+  static constexpr int kMaxActive = 40;
+  using ActiveVector = std::array<double, kMaxActive>;
+
+  void roll_out(const BoxLqProblem& problem, const InputSequence& inputs);
+  void compute_gradient(const BoxLqProblem& problem, const StateSequence& states, const InputSequence& inputs,
+                        double slack_weight);
+  [[nodiscard]] double residual(const BoxLqProblem& problem, const InputSequence& inputs) const;
+  void hold_inputs_at_bounds(const BoxLqProblem& problem, const InputSequence& inputs);
+  template <bool kRate>
+  void riccati_sweep(const BoxLqProblem& problem, const InputSequence& inputs);
+  double candidate(const BoxLqProblem& problem, const InputSequence& inputs, double scale, bool clip_first);
+  bool improves(const BoxLqProblem& problem, const InputSequence& inputs, double cost, double slope);
+
+  // The dual active set, in box_lq_dual.cpp.
+  bool solve_dual(const BoxLqProblem& problem, InputSequence& inputs, int max_steps, int& steps);
+  void minimise_without_bounds(const BoxLqProblem& problem, InputSequence& inputs);
+  bool start_from_last_active_set(const BoxLqProblem& problem, InputSequence& inputs);
+  bool take_up(const BoxLqProblem& problem, InputSequence& inputs, const Bound& bound, double violation,
+               int max_steps, int& steps);
+  [[nodiscard]] double most_violated(const BoxLqProblem& problem, const InputSequence& inputs,
+                                     Bound& worst) const;
+  void respond(const BoxLqProblem& problem, const Bound& bound, Response& response);
+  [[nodiscard]] double shortfall(const BoxLqProblem& problem, const InputSequence& inputs,
+                                 const Bound& bound) const;
+  void move_along(const BoxLqProblem& problem, InputSequence& inputs, const Response& response,
+                  double amount);
+  [[nodiscard]] bool is_active(const Bound& bound) const;
+  void append_active(const BoxLqProblem& problem, const Bound& bound, double multiplier);
+  void drop_active(int position);
+  bool factor_schur(int from);
+  void solve_schur(ActiveVector& vector) const;
+
+  StateSequence states_;
+  StateSequence state_steps_;
+  InputSequence input_steps_;
+  InputSequence gradient_;
+  double gradient_scale_ = 0.0;
+  std::array<Eigen::Vector3d, kMaxHorizon + 1> state_gradient_;   // of the cost of z_k alone
+  std::array<Eigen::Vector3d, kMaxHorizon + 1> state_curvature_;  // its diagonal Hessian
+  std::array<Feedback, kMaxHorizon> feedback_;
+  std::array<Cholesky3, kMaxHorizon> factors_;  // of the curvature by each input
+  std::array<std::array<bool, 3>, kMaxHorizon> held_;
+
+  InputSequence trial_inputs_;
+  StateSequence trial_states_;
+  InputSequence dual_inputs_;
+  int active_count_ = 0;
+  std::array<Bound, kMaxActive> active_;
+  ActiveVector multipliers_;
+  // Responses are kept where they were computed; order_ says which belongs to which active bound.
+  std::array<Response, kMaxActive + 1> responses_;
+  std::array<int, kMaxActive + 1> order_;
+  std::array<ActiveVector, kMaxActive> schur_;         // lower triangle, by active position
+  std::array<ActiveVector, kMaxActive> schur_factor_;  // its Cholesky factor
+};
+
+}  // namespace spf

@@ -1,0 +1,124 @@
+// The extended-state model predictive controller (eq. 19): wheel speeds that lead the robot along the
+// reference. Departures from the printed problem, each because the print cannot be meant: z_1..z_H are
+// penalised (the print leaves z_H free, so that u_{H-1} = 0 always); the effort term asks for the reference's
+// wheel speeds instead of standstill; state bounds are soft (an infeasible start must still give a command)
+// and never bound z_0; the disturbance that the observer found is held over the horizon: z_{k+1} = z_k + dt
+// (A(heading_k) W^-1 u_k + d). Frame: world; poses are vectors (x, y, heading) as in reference_sampler.hpp,
+// wheel speeds are rim speeds [m/s].
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+
+#include "spf/math/parameters.hpp"
+#include "spf/robot/omni_kinematics.hpp"
+#include "spf/tracking/box_lq.hpp"
+#include "spf/tracking/reference_sampler.hpp"
+
+namespace spf {
+
+struct MpcParameters {
+  int horizon = 5;                ///< [1] H (paper)
+  double dt = 0.1;                ///< [s] (paper)
+  double position_weight = 10.0;  ///< [1/m^2] lambda_p for x and y; the paper gives no value
+  double heading_weight = 1.0;    ///< [1/rad^2] lambda_p for the heading
+  double effort_weight = 0.05;    ///< [s^2/m^2] lambda_u, on wheel speeds minus the reference's
+  double rate_weight = 0.0;       ///< [s^2/m^2] on the change of wheel speeds from step to step
+  double slack_weight = 1e5;      ///< [1/m^2] on violations of the state bounds
+  double x_lower = -1e6;          ///< [m] soft bounds of the robot's centre
+  double x_upper = 1e6;
+  double y_lower = -1e6;
+  double y_upper = 1e6;
+  int iterations = 2;          ///< [1] Gauss-Newton iterations at most
+  double tolerance = 1e-6;     ///< [m/s] stop when an iteration moves no wheel speed by more
+  int active_set_steps = 100;  ///< [1] per iteration at most
+  bool warm_start = true;      ///< begin with the bounds active at the last tick
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("horizon", self.horizon, "1", Range{1, kMaxHorizon}, "horizon H in steps (paper: 5)");
+    visit("dt", self.dt, "s", Range{1e-3, 1.0}, "time step of the prediction (paper: 0.1)");
+    visit("position_weight", self.position_weight, "1/m^2", Range{1e-6, 1e6},
+          "lambda_p of eq. 19 for x and y; our choice");
+    visit("heading_weight", self.heading_weight, "1/rad^2", Range{1e-6, 1e6},
+          "lambda_p of eq. 19 for the heading; our choice");
+    visit("effort_weight", self.effort_weight, "s^2/m^2", Range{1e-6, 1e6},
+          "lambda_u of eq. 19, on wheel speeds minus the reference's; our choice");
+    visit("rate_weight", self.rate_weight, "s^2/m^2", Range{0.0, 1e6},
+          "weight of the change of wheel speeds between steps; our addition");
+    visit("slack_weight", self.slack_weight, "1/m^2", Range{0.0, 1e8},
+          "weight of violations of the soft state bounds; our choice");
+    visit("x_lower", self.x_lower, "m", Range{-1e6, 1e6}, "soft lower bound of x (z_lb of eq. 19)");
+    visit("x_upper", self.x_upper, "m", Range{-1e6, 1e6}, "soft upper bound of x (z_ub of eq. 19)");
+    visit("y_lower", self.y_lower, "m", Range{-1e6, 1e6}, "soft lower bound of y (z_lb of eq. 19)");
+    visit("y_upper", self.y_upper, "m", Range{-1e6, 1e6}, "soft upper bound of y (z_ub of eq. 19)");
+    visit("iterations", self.iterations, "1", Range{1, 50}, "Gauss-Newton iterations at most");
+    visit("tolerance", self.tolerance, "m/s", Range{0.0, 1.0},
+          "iterations stop when no wheel speed moves by more");
+    visit("active_set_steps", self.active_set_steps, "1", Range{1, 1000},
+          "active-set steps per iteration at most");
+    visit("warm_start", self.warm_start, "begin with the bounds that were active at the last tick");
+  }
+};
+
+struct MpcProblem {
+  Eigen::Vector3d initial_pose = Eigen::Vector3d::Zero();           ///< z_0
+  Eigen::Vector3d disturbance = Eigen::Vector3d::Zero();            ///< d, world [m/s, m/s, rad/s]
+  Eigen::Vector3d previous_wheel_speeds = Eigen::Vector3d::Zero();  ///< u_{-1} of the rate term
+  Reference reference;                                              ///< steps as MpcParameters::horizon
+};
+
+enum class MpcStatus {
+  converged,        ///< to the tolerance
+  iteration_limit,  ///< the usual end of a few iterations; the command is near-optimal
+  step_limit,       ///< an active set was not settled in time; the command is feasible, perhaps not optimal
+  invalid_problem,  ///< not finite, or of another horizon: the command is to stand
+};
+
+struct MpcResult {
+  MpcStatus status = MpcStatus::invalid_problem;
+  InputSequence wheel_speeds;      ///< u_0..u_{H-1}, within the limits
+  StateSequence pose;              ///< z_0..z_H predicted by the nonlinear model
+  double cost = 0.0;               ///< of eq. 19 in our reading
+  double optimality_residual = 0;  ///< largest component of the projected gradient; 0 at an optimum
+  double largest_violation = 0;    ///< [m] of a soft bound by z_1..z_H
+  double last_change = 0.0;        ///< [m/s] of a wheel speed by the last iteration
+  int iterations = 0;
+  int active_set_steps = 0;  ///< over all iterations
+  bool fell_back = false;    ///< the slower method had to take over in one of them
+};
+
+/// Gauss-Newton on the nonlinear problem. The first iteration linearises about the reference (never about the
+/// old solution: after a jump of the estimate that is a hundred times worse), each further one about the last
+/// solution. Never throws or allocates after construction.
+class ModelPredictiveController {
+ public:
+  /// Throws std::invalid_argument on parameters out of range or bounds that cross.
+  ModelPredictiveController(const MpcParameters& parameters, const OmniKinematics& kinematics);
+
+  const MpcResult& solve(const MpcProblem& problem);
+  /// Drops the warm start. It changes the work, not the optimum.
+  void forget() { solver_.forget(); }
+  [[nodiscard]] const MpcParameters& parameters() const { return parameters_; }
+
+ private:
+  void set_up(const MpcProblem& problem);
+  void linearise(const MpcProblem& problem, const StateSequence& about, const InputSequence& inputs);
+  double roll_out(const MpcProblem& problem, const InputSequence& inputs, StateSequence& states) const;
+  double move_towards_trial(const MpcProblem& problem, double cost);
+  double try_fraction(const MpcProblem& problem, double fraction);
+  const MpcResult& finish(const MpcProblem& problem, double cost);
+
+  MpcParameters parameters_;
+  OmniKinematics kinematics_;
+  BoxLqProblem lq_;
+  BoxLqSolver solver_;
+  MpcResult result_;
+  InputSequence trial_inputs_;
+  InputSequence input_steps_;
+  InputSequence best_inputs_;
+  StateSequence trial_states_;
+};
+
+}  // namespace spf

@@ -1,0 +1,83 @@
+// Self-sampling (eq. 18): the MPC's reference, read from the committed trajectory at t, t + dt, ..., t + H dt
+// for the current time t, whatever the plan's own sampling. Eq. 18 starts at k = 1 for the time t itself;
+// here point k belongs to t + k dt, so that point k is what the predicted state z_k is compared with. Frame:
+// world. A pose here is the vector (x, y, heading) [m, m, rad] whose heading is unwrapped along the horizon.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "spf/math/parameters.hpp"
+#include "spf/math/pose2.hpp"
+#include "spf/robot/omni_kinematics.hpp"
+#include "spf/trajectory/trajectory.hpp"
+
+namespace spf {
+
+/// Longest horizon of the MPC.
+inline constexpr int kMaxHorizon = 20;
+
+struct ReferenceParameters {
+  bool self_sampling = true;         ///< false: the ablation "without self-sampling"
+  double plan_point_interval = 0.5;  ///< [s] spacing of the plan's points that the ablation holds
+  bool nearest_start = false;        ///< start from the point nearest to the robot instead of the schedule's
+  double max_slip = 0.5;             ///< [s] the largest departure from the schedule that it may cause
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("self_sampling", self.self_sampling,
+          "read the reference from the trajectory at every tick (eq. 18); false: hold the plan's discrete "
+          "points");
+    visit("plan_point_interval", self.plan_point_interval, "s", Range{0.01, 10.0},
+          "without self-sampling: spacing of the plan's points; our choice");
+    visit("nearest_start", self.nearest_start,
+          "start from the trajectory point nearest to the robot, at most max_slip from the schedule");
+    visit("max_slip", self.max_slip, "s", Range{0.0, 10.0},
+          "largest departure from the schedule with nearest_start; our choice");
+  }
+};
+
+struct ReferenceRequest {
+  double time = 0.0;  ///< [s] now
+  double dt = 0.1;    ///< [s]
+  int steps = 5;      ///< H, at most kMaxHorizon
+  double lead = 0.0;  ///< [s] every pose is moved ahead by lead times its velocity (for motors with that lag)
+  Pose2 robot_world;  ///< for the heading's turn count and for nearest_start
+};
+
+struct Reference {
+  int steps = 0;
+  std::array<Eigen::Vector3d, kMaxHorizon + 1> pose;   ///< points 0..H
+  std::array<Eigen::Vector3d, kMaxHorizon + 1> twist;  ///< world [m/s, m/s, rad/s], points 0..H
+  std::array<Eigen::Vector3d, kMaxHorizon>
+      wheel_speeds;  ///< [m/s] within the limits, steps 0..H-1: they move the
+                     ///< MPC's model from point k to point k + 1
+  double slip =
+      0.0;  ///< [s] departure from the schedule, to be broadcast: point 0 is the plan at time + slip
+  bool slip_limited = false;  ///< the nearest point lies beyond max_slip
+};
+
+/// Never throws, never allocates. Requires a trajectory that is not empty, 1 <= steps <= kMaxHorizon, dt > 0.
+[[nodiscard]] Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest& request,
+                                         const OmniKinematics& kinematics,
+                                         const ReferenceParameters& parameters);
+
+/// A point of a plan that arrives as points.
+struct PlanPoint {
+  double time = 0.0;  ///< [s]
+  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();
+  std::optional<Eigen::Vector2d> acceleration_world;
+};
+
+/// Polynomials through positions, velocities and timestamps of adjacent points: cubic, or quintic where both
+/// ends know their acceleration; exact where the plan is such a polynomial already. Of a plan with more
+/// intervals than a Trajectory holds, those from the one that contains from_time on. Throws
+/// std::invalid_argument on fewer than two points, times that do not grow, or values that are not finite.
+[[nodiscard]] Trajectory fit_trajectory(const std::vector<PlanPoint>& points, double from_time,
+                                        const HeadingProfile& heading = {});
+
+}  // namespace spf
