@@ -40,7 +40,8 @@ GuidePath::Cell GuidePath::cell_of(const Eigen::Vector2d& position_world) const 
   const Eigen::Vector2d asked = position_world - window_.origin_world;
   const double width = window_.resolution * (window_.width - 1);
   const double height = window_.resolution * (window_.height - 1);
-  cell.local = {std::min(std::max(asked.x(), 0.0), width), std::min(std::max(asked.y(), 0.0), height)};
+  // In this order of arguments NaN becomes 0.
+  cell.local = {std::min(std::max(0.0, asked.x()), width), std::min(std::max(0.0, asked.y()), height)};
   const Eigen::Vector2d beyond = asked - cell.local;
   cell.outside = beyond.norm();
   cell.outward = cell.outside > 0.0 ? Eigen::Vector2d{beyond / cell.outside} : Eigen::Vector2d{0.0, 0.0};

@@ -275,6 +275,9 @@ TEST(GuidePath, HasAnAnswerForHopelessInput) {
   EXPECT_EQ(guide.update(full, {0.0, 0.0}, {0.5, 0.5}), GuideOutcome::no_free_goal);
   EXPECT_FALSE(guide.ready());
   EXPECT_EQ(guide.update(map_with({}), {std::nan(""), 0.0}, {0.5, 0.5}), GuideOutcome::no_free_goal);
+  ASSERT_EQ(guide.update(map_with({}), {1.0, 0.0}, {0.5, 0.5}), GuideOutcome::reachable);
+  EXPECT_TRUE(std::isnan(guide.cost_to_go({std::nan(""), 0.0})));  // and no crash
+  EXPECT_FALSE(guide.reachable({std::nan(""), 0.0}));
   GuidePathParameters parameters;
   parameters.resolution = 0.0;
   EXPECT_THROW(GuidePath{parameters}, std::invalid_argument);
