@@ -20,34 +20,65 @@ struct Encounter {
   double until;           // [s]
 };
 
+/// Where a walk ended.
+struct WalkEnd {
+  bool conflict = false;
+  double time = 0.0;       // [s]
+  double clearance = 0.0;  // [m] at the conflict
+  double least = std::numeric_limits<double>::infinity();
+};
+
 /// Walks along the trajectory; `clearance(time, position)` is a signed distance that changes no faster than
-/// approach_speed. Keeps the earliest conflict in the report.
+/// approach_speed. A conflict is a clearance below `floor`, or below 0 once it has been above; a start below
+/// the floor lowers it. An infinite floor below only looks for the least clearance.
 template <class ClearanceAt>
-void walk(const MovingDisc& self, double from, const Encounter& encounter, ClearanceAt&& clearance,
-          ClearanceReport& report) {
+WalkEnd walk(const Trajectory& trajectory, double from, const Encounter& encounter, double floor,
+             const ClearanceAt& clearance) {
+  MovingDisc self;
+  self.trajectory = &trajectory;
   DiscCursor cursor{self};
-  double until = encounter.until;
-  if (!report.clear()) until = std::min(until, report.time);
   const double slowness = 1.0 / std::max(encounter.approach_speed, 1e-3);
-  double allowed = 0.0;
-  for (double time = from; time <= until;) {
+  const bool only_looking = std::isinf(floor);
+  WalkEnd end;
+  for (double time = from; time <= encounter.until;) {
     cursor.move_to(time);
     const double now = clearance(time, cursor.position());
-    if (time == from) allowed = std::min(0.0, now);
-    report.min_clearance = std::min(report.min_clearance, now);
-    if (now < allowed - kSlack) {
-      if (report.clear() || time < report.time) {
-        report.kind = encounter.kind;
-        report.id = encounter.id;
-        report.time = time;
-        report.clearance = now;
-      }
-      return;
+    if (time == from) floor = std::min(floor, now);
+    end.least = std::min(end.least, now);
+    if (now < floor - kSlack) {
+      end.conflict = true;
+      end.time = time;
+      end.clearance = now;
+      return end;
     }
-    allowed = std::min(0.0, std::max(allowed, now));
-    if (time >= until) return;
-    time = std::min(until, time + std::max(ClearanceModel::kShortestStep, now * slowness));
+    if (now >= 0.0 && !only_looking) floor = 0.0;
+    if (time >= encounter.until) break;
+    time =
+        std::min(encounter.until, time + std::max(ClearanceModel::kShortestStep, std::abs(now) * slowness));
   }
+  return end;
+}
+
+/// One encounter of a check: the plain rule first, and after a conflict "no worse than the alternative".
+template <class ClearanceAt>
+void check_encounter(const Trajectory& trajectory, const ClearanceWindow& window, Encounter encounter,
+                     double least_floor, const ClearanceAt& clearance, ClearanceReport& report) {
+  if (!report.clear()) encounter.until = std::min(encounter.until, report.time);
+  WalkEnd end = walk(trajectory, window.from, encounter, 0.0, clearance);
+  if (end.conflict && window.alternative != nullptr && !window.alternative->empty()) {
+    Encounter other = encounter;
+    other.until = std::min(encounter.until, window.alternative->end_time());
+    other.approach_speed += speed_bound(*window.alternative);
+    const double unlimited = -std::numeric_limits<double>::infinity();
+    const double floor = walk(*window.alternative, window.from, other, unlimited, clearance).least;
+    if (floor < 0.0) end = walk(trajectory, window.from, encounter, std::max(floor, least_floor), clearance);
+  }
+  report.min_clearance = std::min(report.min_clearance, end.least);
+  if (!end.conflict || (!report.clear() && report.time <= end.time)) return;
+  report.kind = encounter.kind;
+  report.id = encounter.id;
+  report.time = end.time;
+  report.clearance = end.clearance;
 }
 
 }  // namespace
@@ -133,32 +164,38 @@ double ClearanceModel::moving_clearance(const Eigen::Vector2d& position_world, d
 
 ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const ClearanceWindow& window) const {
   assert(map_ != nullptr && !trajectory.empty());
-  MovingDisc self;
-  self.trajectory = &trajectory;
   const double speed = speed_bound(trajectory);
   ClearanceReport report;
 
   // The interpolated distance may be a little steeper than the true one.
   constexpr double kInterpolationSteepness = 1.1;
-  walk(
-      self, window.from, {ConflictKind::static_map, -1, kInterpolationSteepness * speed, window.static_until},
+  // No alternative justifies contact, which is what the whole margin lost means.
+  constexpr double kLosable = 0.9;
+  const double static_margin = window.margin_scale * planner_.static_margin;
+  check_encounter(
+      trajectory, window,
+      {ConflictKind::static_map, -1, kInterpolationSteepness * speed, window.static_until},
+      -kLosable * static_margin,
       [&](double, const Eigen::Vector2d& p) { return static_clearance(p, window.margin_scale); }, report);
 
+  const double peer_margin = window.margin_scale * planner_.peer_margin;
   for (const MovingDisc& disc : discs_) {
     DiscCursor other{disc};
-    const double contact = disc.radius + window.margin_scale * planner_.peer_margin;
     const ConflictKind kind = disc.is_peer ? ConflictKind::peer : ConflictKind::obstacle;
-    walk(
-        self, window.from, {kind, disc.id, speed + disc.speed_bound, window.moving_until},
+    check_encounter(
+        trajectory, window, {kind, disc.id, speed + disc.speed_bound, window.moving_until},
+        -kLosable * peer_margin,
         [&](double time, const Eigen::Vector2d& p) {
           other.move_to(time);
-          return (p - other.position()).norm() - contact;
+          return (p - other.position()).norm() - disc.radius - peer_margin;
         },
         report);
   }
+  // To be in the field is no contact yet.
   for (const DangerRegion& region : regions_)
-    walk(
-        self, window.from, {ConflictKind::obstacle, region.id, speed, window.moving_until},
+    check_encounter(
+        trajectory, window, {ConflictKind::obstacle, region.id, speed, window.moving_until},
+        -std::numeric_limits<double>::max(),
         [&](double, const Eigen::Vector2d& p) { return region.field.clearance(p, region.threshold); },
         report);
   return report;

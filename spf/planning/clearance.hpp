@@ -48,6 +48,8 @@ struct ClearanceWindow {
   double static_until = 0.0;  ///< [s] end of the check against the map
   double moving_until = 0.0;  ///< [s] end of the check against what moves
   double margin_scale = 1.0;  ///< [1] of the margins; a committed plan is checked with less than a new one
+  const Trajectory* alternative = nullptr;  ///< what the robot would do otherwise (brake): being as near to
+                                            ///< things as that, yet without contact, is no conflict
 };
 
 class ClearanceModel {
@@ -58,6 +60,12 @@ class ClearanceModel {
   /// Takes over the surroundings; the snapshot must live while checks are made. Allocates only when more
   /// peers or obstacles appear than ever before.
   void prepare(const WorldSnapshot& world, double time, PeerSelection selection);
+
+  /// Multiplies the threshold of every danger region by factor(id of the obstacle).
+  template <class Factor>
+  void widen_regions(Factor&& factor) {
+    for (DangerRegion& region : regions_) region.threshold *= factor(region.id);
+  }
 
   /// Steps along the trajectory no farther than clearance and speeds allow (and not below kShortestStep). A
   /// start that is too close is accepted as long as that distance does not shrink.

@@ -21,10 +21,36 @@ Eigen::Vector2d mirrored_point(const Eigen::Vector2d& point, const Eigen::Vector
   return on_line + mirrored_direction(point - on_line, along);
 }
 
+/// First and last node of 1 .. last_node in a region; first is 0 when there is none.
+struct NodeSpan {
+  int first = 0;
+  int last = 0;
+};
+NodeSpan dangerous_nodes(const DangerRegion& region, const NodeSet& nodes, int last_node) {
+  NodeSpan span;
+  for (int k = 1; k <= last_node; ++k) {
+    if (region.field.mahalanobis(nodes[k].position) >= region.threshold) continue;
+    if (span.first == 0) span.first = k;
+    span.last = k;
+  }
+  return span;
+}
+
+/// A newer pair of the same node and obstacle replaces the older one.
+void put(const GuidePair& pair, std::vector<GuidePair>& pairs) {
+  const auto old = std::find_if(pairs.begin(), pairs.end(), [&](const GuidePair& other) {
+    return other.node == pair.node && other.source == pair.source;
+  });
+  if (old != pairs.end())
+    *old = pair;
+  else
+    pairs.push_back(pair);
+}
+
 }  // namespace
 
-FieldGuidance::FieldGuidance(const FieldParameters& parameters, double least_sideways)
-    : parameters_{parameters}, least_sideways_{least_sideways} {
+FieldGuidance::FieldGuidance(const FieldParameters& parameters, double safety_distance, double least_sideways)
+    : parameters_{parameters}, safety_distance_{safety_distance}, least_sideways_{least_sideways} {
   memory_.reserve(kMemorySize);
 }
 
@@ -33,15 +59,9 @@ void FieldGuidance::find_conflicts(const std::vector<DangerRegion>& regions, con
                                    std::vector<FieldConflict>& conflicts) const {
   conflicts.clear();
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    int first = 0;
-    int last = 0;
-    for (int k = 1; k <= last_node; ++k) {
-      if (regions[r].field.mahalanobis(nodes[k].position) >= regions[r].threshold) continue;
-      if (first == 0) first = k;
-      last = k;
-    }
-    if (first > 0)
-      conflicts.push_back(conflict_of(regions[r], static_cast<int>(r), nodes, first, last, head));
+    const NodeSpan span = dangerous_nodes(regions[r], nodes, last_node);
+    if (span.first > 0)
+      conflicts.push_back(conflict_of(regions[r], static_cast<int>(r), nodes, span.first, span.last, head));
   }
   std::sort(conflicts.begin(), conflicts.end(), [](const FieldConflict& a, const FieldConflict& b) {
     return a.first != b.first ? a.first < b.first : a.region < b.region;
@@ -76,53 +96,56 @@ FieldConflict FieldGuidance::conflict_of(const DangerRegion& region, int index, 
   return conflict;
 }
 
-int FieldGuidance::add_pairs(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
-                             const FlatState& head, std::vector<SideChoice>& sides,
-                             std::vector<GuidePair>& pairs) const {
-  int added = 0;
+void FieldGuidance::add_pairs(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
+                              const FlatState& head, std::vector<SideChoice>& sides,
+                              std::vector<GuidePair>& pairs) const {
   sides.resize(regions.size());
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const DangerRegion& region = regions[r];
-    int first = 0;
-    int last = 0;
-    for (int k = 1; k <= last_node; ++k) {
-      if (region.field.mahalanobis(nodes[k].position) >= region.threshold) continue;
-      if (first == 0) first = k;
-      last = k;
-    }
-    if (first == 0) continue;
     SideChoice& choice = sides[r];
-    if (!choice.decided) {
-      const FieldConflict conflict = conflict_of(region, static_cast<int>(r), nodes, first, last, head);
+    const NodeSpan span = dangerous_nodes(region, nodes, last_node);
+    if (span.first > 0 && !choice.decided) {
+      const FieldConflict conflict =
+          conflict_of(region, static_cast<int>(r), nodes, span.first, span.last, head);
       choice = {true, conflict.natural, conflict.along, conflict.entry_world};
     }
-    for (int k = first; k <= last; ++k) {
-      if (region.field.mahalanobis(nodes[k].position) >= region.threshold) continue;
-      const GuidePair pair = make_pair(region, nodes[k], choice);
-      GuidePair numbered = pair;
-      numbered.node = k;
-      // A newer pair of the same node and obstacle replaces the older one.
-      const auto old = std::find_if(pairs.begin(), pairs.end(), [&](const GuidePair& other) {
-        return other.node == k && other.source == region.id;
-      });
-      if (old != pairs.end())
-        *old = numbered;
-      else
-        pairs.push_back(numbered);
-      ++added;
+    for (int k = 1; k <= last_node; ++k) {
+      const Eigen::Vector2d& position = nodes[k].position;
+      const double clearance = region.field.clearance(position, region.threshold);
+      if (clearance >= safety_distance_) continue;
+      GuidePair pair =
+          clearance < 0.0 ? inner_pair(region, position, choice) : rim_pair(region, position, clearance);
+      // On the rim of the side that is to be left, other nodes have to pull first.
+      if (clearance >= 0.0 && choice.decided && pair.normal.dot(side_of(choice)) < 0.0) continue;
+      pair.node = k;
+      put(pair, pairs);
     }
   }
-  return added;
 }
 
-GuidePair FieldGuidance::make_pair(const DangerRegion& region, const NodeSample& node,
-                                   const SideChoice& choice) const {
-  const Eigen::Vector2d side = static_cast<double>(choice.side) * left_of(choice.along);
-  Eigen::Vector2d direction = region.field.escape_direction(node.position, side);  // eq. 11
+Eigen::Vector2d FieldGuidance::side_of(const SideChoice& choice) {
+  return static_cast<double>(choice.side) * left_of(choice.along);
+}
+
+/// Outside the ellipse, but nearer than d_saf: eq. 10 is positive there too. The guide point is the foot on
+/// the ellipse along the gradient (to first order).
+GuidePair FieldGuidance::rim_pair(const DangerRegion& region, const Eigen::Vector2d& position,
+                                  double clearance) const {
+  GuidePair pair;
+  pair.source = region.id;
+  pair.normal = region.field.escape_direction(position, Eigen::Vector2d::Zero());
+  pair.base = position - clearance * pair.normal;
+  return pair;
+}
+
+GuidePair FieldGuidance::inner_pair(const DangerRegion& region, const Eigen::Vector2d& position,
+                                    const SideChoice& choice) const {
+  const Eigen::Vector2d side = side_of(choice);
+  Eigen::Vector2d direction = region.field.escape_direction(position, side);  // eq. 11
   const bool mirror = direction.dot(side) < 0.0;
-  Eigen::Vector2d mirrored_guide = node.position;
+  Eigen::Vector2d mirrored_guide = position;
   if (mirror) {
-    const Eigen::Vector2d natural = region.field.guide_point(node.position, direction, region.threshold);
+    const Eigen::Vector2d natural = region.field.guide_point(position, direction, region.threshold);
     mirrored_guide = mirrored_point(natural, choice.entry_world, choice.along);
     direction = mirrored_direction(direction, choice.along);
   }
@@ -135,7 +158,7 @@ GuidePair FieldGuidance::make_pair(const DangerRegion& region, const NodeSample&
   GuidePair pair;
   pair.source = region.id;
   pair.normal = direction;
-  pair.base = region.field.guide_point(node.position, direction, region.threshold);
+  pair.base = region.field.guide_point(position, direction, region.threshold);
   // Fig. 4's mirrored point, where it lies farther out than the ellipse (which is not symmetric to that
   // line).
   if (mirror && signed_distance(pair, mirrored_guide) > 0.0) pair.base = mirrored_guide;

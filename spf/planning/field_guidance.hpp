@@ -35,20 +35,21 @@ struct SideChoice {
 
 class FieldGuidance {
  public:
-  /// `least_sideways`: sine of the least angle between a guide direction and the line of symmetry. Along the
-  /// line no side is gained, and a point on the obstacle's axis would never leave it (paper_notes).
-  FieldGuidance(const FieldParameters& parameters, double least_sideways);
+  /// `safety_distance`: d_saf of eq. 10. `least_sideways`: sine of the least angle between a guide direction
+  /// and the line of symmetry. Along the line no side is gained, and a point on the obstacle's axis would
+  /// never leave it (paper_notes).
+  FieldGuidance(const FieldParameters& parameters, double safety_distance, double least_sideways);
 
   /// Conflicts of the nodes 1 .. last_node, once per region, in the order of their first node.
   void find_conflicts(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
                       const FlatState& head, std::vector<FieldConflict>& conflicts) const;
 
-  /// Appends a pair for every dangerous node of 1 .. last_node that has none for this obstacle: guide point
-  /// in closed form, mirrored at the line of symmetry together with its direction where the chosen side asks
-  /// for it. A region that is met without a choice is decided by its gradients. Returns the number of pairs
-  /// appended.
-  int add_pairs(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
-                const FlatState& head, std::vector<SideChoice>& sides, std::vector<GuidePair>& pairs) const;
+  /// Gives every node of 1 .. last_node in a region, or nearer than d_saf to it, its guide pair; an older
+  /// pair of the same node and obstacle is replaced. Guide points in closed form, mirrored at the line of
+  /// symmetry together with their directions where the chosen side asks for it. A region that is met without
+  /// a choice is decided by its gradients.
+  void add_pairs(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
+                 const FlatState& head, std::vector<SideChoice>& sides, std::vector<GuidePair>& pairs) const;
 
   /// Side taken last time, if it is remembered: +1 left, -1 right, 0 unknown.
   [[nodiscard]] int remembered_side(int track_id, double time) const;
@@ -71,12 +72,16 @@ class FieldGuidance {
     int change_count = 0;
   };
   [[nodiscard]] const Memory* find(int track_id) const;
-  [[nodiscard]] GuidePair make_pair(const DangerRegion& region, const NodeSample& node,
-                                    const SideChoice& choice) const;
+  [[nodiscard]] static Eigen::Vector2d side_of(const SideChoice& choice);
+  [[nodiscard]] GuidePair inner_pair(const DangerRegion& region, const Eigen::Vector2d& position,
+                                     const SideChoice& choice) const;
+  [[nodiscard]] GuidePair rim_pair(const DangerRegion& region, const Eigen::Vector2d& position,
+                                   double clearance) const;
   [[nodiscard]] FieldConflict conflict_of(const DangerRegion& region, int index, const NodeSet& nodes,
                                           int first, int last, const FlatState& head) const;
 
   FieldParameters parameters_;
+  double safety_distance_;
   double least_sideways_;
   std::vector<Memory> memory_;
 };

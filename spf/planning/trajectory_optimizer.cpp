@@ -81,9 +81,12 @@ double TrajectoryOptimizer::evaluate(const Lbfgs::Point& decision, Lbfgs::Gradie
 
 void TrajectoryOptimizer::add_node_terms() {
   const CostWeights& weights = planner_.weights;
-  LimitsCost{weights.limits, robot_.max_speed, robot_.max_acceleration, robot_.max_jerk}.add(nodes_);
+  LimitsCost{weights.limits * problem_.limits_factor, robot_.max_speed, robot_.max_acceleration,
+             robot_.max_jerk}
+      .add(nodes_);
   SpacingCost{weights.spacing, planner_.piece_length / planner_.nodes_per_piece}.add(nodes_);
-  const StaticCost surface{weights.static_hard, weights.static_soft, planner_.hard_clearance,
+  const StaticCost surface{weights.static_hard * problem_.static_factor,
+                           weights.static_soft * problem_.static_factor, planner_.hard_clearance,
                            planner_.soft_clearance};
   if (problem_.static_pairs != nullptr) surface.add(*problem_.static_pairs, nodes_);
   if (problem_.frozen_pairs != nullptr) surface.add(*problem_.frozen_pairs, nodes_);

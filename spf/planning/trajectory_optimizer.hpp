@@ -58,9 +58,12 @@ struct TrajectoryProblem {
   const std::vector<GuidePair>* static_pairs = nullptr;
   const std::vector<GuidePair>* field_pairs = nullptr;   ///< guide points of the probability field
   const std::vector<GuidePair>* frozen_pairs = nullptr;  ///< obstacles that stand (ES2): cost as static ones
-  double peer_factor = 1.0;                              ///< on the weights of peers, after a failed check
-  double dynamic_factor = 1.0;                           ///< on the weight of the field, likewise
-  NodeTermRef extra;                                     ///< a term of the caller's own
+  // Factors on weights, raised after a failed check.
+  double peer_factor = 1.0;
+  double dynamic_factor = 1.0;
+  double static_factor = 1.0;
+  double limits_factor = 1.0;
+  NodeTermRef extra;  ///< a term of the caller's own
 };
 
 /// How a run ended.

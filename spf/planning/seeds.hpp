@@ -1,0 +1,60 @@
+// Where a plan leads to (local target) and what the optimiser starts from (seeds). Frame: world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "spf/planning/clearance.hpp"
+#include "spf/planning/guide_path.hpp"
+#include "spf/planning/planner.hpp"
+#include "spf/planning/trajectory_optimizer.hpp"
+
+namespace spf {
+
+/// Kinds of seeds, in the order in which they are tried.
+enum class SeedKind {
+  warm,        ///< the committed plan, extended along the guide path
+  cold,        ///< along the guide path
+  bowed_left,  ///< along the guide path, bent to one side
+  bowed_right,
+  slow,           ///< along the guide path in more time: lets others pass first
+  short_horizon,  ///< to a target at half the horizon
+};
+
+/// Tail of the plan.
+struct LocalTarget {
+  FlatState state;       ///< the goal at rest, or a place on the way at cruising speed
+  bool is_goal = false;  ///< the plan ends at the goal
+  double way = 0.0;      ///< [m] from the head along the guide path
+};
+
+/// Makes targets and seeds; keeps the guide path's corners between calls.
+class SeedMaker {
+ public:
+  SeedMaker(const PlannerParameters& planner, const RobotParameters& robot);
+
+  /// The place after `horizon` metres of the guide path, or the goal when it is nearer. A place on the way
+  /// that is not free (static, or something stands there) is moved along the path, backwards first.
+  [[nodiscard]] LocalTarget local_target(const PlanRequest& request, const GuidePath& guide,
+                                         const ClearanceModel& clearance, double horizon);
+
+  /// Fills the seed; false when this kind does not apply (nothing committed, or its end has passed). Call
+  /// local_target() first for the same request.
+  [[nodiscard]] bool make(SeedKind kind, const PlanRequest& request, const LocalTarget& target,
+                          TrajectorySeed& seed);
+
+ private:
+  [[nodiscard]] Eigen::Vector2d on_way(double distance) const;
+  [[nodiscard]] int pieces_for(double way) const;
+  void along_way(const PlanRequest& request, const LocalTarget& target, double bow, double stretch,
+                 TrajectorySeed& seed) const;
+  [[nodiscard]] bool from_committed(const PlanRequest& request, const LocalTarget& target,
+                                    TrajectorySeed& seed) const;
+
+  PlannerParameters planner_;
+  RobotParameters robot_;
+  std::vector<Eigen::Vector2d> way_;  // corners from the head to the goal
+};
+
+}  // namespace spf
