@@ -116,12 +116,13 @@ double StaticShapes::swept_distance_to(const Shape& shape, const Motion& motion)
   return distance_between_segments(path, walls_[index]);
 }
 
-double StaticShapes::clearance(const Eigen::Vector2d& position_world, double radius) const {
-  double nearest = border_ ? depth_inside(position_world, *border_) : kFar + radius;
-  grid_.visit(position_world, kFar + radius + reach_, [&](int shape) {
+double StaticShapes::clearance(const Eigen::Vector2d& position_world, double radius, double far) const {
+  double nearest = far + radius;
+  if (border_) nearest = std::min(nearest, depth_inside(position_world, *border_));
+  grid_.visit(position_world, std::max(nearest, 0.0) + reach_, [&](int shape) {
     nearest = std::min(nearest, distance_to(shapes_[static_cast<std::size_t>(shape)], position_world));
   });
-  return std::min(nearest - radius, kFar);
+  return nearest - radius;
 }
 
 std::optional<Contact> StaticShapes::first_contact(const Motion& motion, double radius) const {

@@ -42,9 +42,10 @@ class StaticShapes {
   explicit StaticShapes(const Scenario& scenario);
 
   /// Distance from a robot's centre to the nearest static surface minus its radius, the border included [m];
-  /// anything above kFar reads kFar.
-  [[nodiscard]] double clearance(const Eigen::Vector2d& position_world, double radius) const;
-  static constexpr double kFar = 10.0;
+  /// anything above `far` reads `far`.
+  [[nodiscard]] double clearance(const Eigen::Vector2d& position_world, double radius,
+                                 double far = kFar) const;
+  static constexpr double kFar = 10.0;  ///< [m]
 
   /// The first contact of a disc that moves over one step, with `time` as the share of the step in [0, 1].
   [[nodiscard]] std::optional<Contact> first_contact(const Motion& motion, double radius) const;

@@ -9,6 +9,7 @@ namespace {
 constexpr double kStandingSpeed = 0.05;    // [m/s] (PED)
 constexpr double kStandingTime = 1.0;      // [s] (PED)
 constexpr double kForgivenDistance = 1.5;  // [m] centre to centre (PED)
+constexpr double kPairMargin = 0.25;       // [m] that a robot may move before the near pairs are listed anew
 
 Motion part_of(const Motion& motion, double share_from, double share_to) {
   return {motion.at(share_from), motion.at(share_to)};
@@ -23,8 +24,9 @@ double length(const Motion& motion) {
 ContactMonitor::ContactMonitor(const Scenario& scenario)
     : robot_radius_{scenario.robot.radius},
       shapes_{scenario},
-      centers_(scenario.robots.size()),
-      grid_{2.0 * scenario.robot.radius + kNearPeer},
+      free_(scenario.robots.size()),
+      static_clearance_(scenario.robots.size(), kFarStatic),
+      grid_{2.0 * scenario.robot.radius + kNearPeer + 2.0 * kPairMargin},
       standing_time_(scenario.robots.size(), 0.0),
       dynamic_distance_{std::numeric_limits<double>::infinity()},
       dynamic_clearance_{dynamic_distance_},
@@ -37,13 +39,7 @@ void ContactMonitor::check(const Tick& tick, const std::vector<RobotTruth>& robo
   note_standing(tick.dt, robots);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     check_movers(tick, i, robots[i], movers);
-    if (robots[i].wrecked) continue;
-    if (const std::optional<Contact> found = shapes_.first_contact(robots[i].motion, robot_radius_)) {
-      Contact contact = contact_of(tick, found->time, i, robots[i]);
-      contact.with = found->with;
-      contact.other = found->other;
-      contacts_.push_back(contact);
-    }
+    if (!robots[i].wrecked) check_static(tick, i, robots[i]);
   }
   check_peers(tick, robots);
   std::stable_sort(contacts_.begin() + first_new, contacts_.end(),
@@ -93,33 +89,67 @@ void ContactMonitor::touch_person(std::size_t robot, const Mover& mover, const C
   (stood ? hits_while_standing_ : contacts_).push_back(contact);
 }
 
+/// Both ends of the motion in a free disc: so is all of it. Otherwise it is looked at closely.
+void ContactMonitor::check_static(const Tick& tick, std::size_t robot, const RobotTruth& truth) {
+  const double wanted = truth.arrived ? 0.0 : static_clearance_[robot];
+  const double bound = std::min(free_[robot].bound(truth.motion.from), free_[robot].bound(truth.motion.to));
+  if (bound > wanted) return;
+  const double clearance = shapes_.clearance(truth.motion.to, robot_radius_);
+  free_[robot] = {truth.motion.to, clearance};
+  if (!truth.arrived) static_clearance_[robot] = std::min(static_clearance_[robot], clearance);
+  if (clearance > length(truth.motion)) return;
+  if (const std::optional<Contact> found = shapes_.first_contact(truth.motion, robot_radius_)) {
+    Contact contact = contact_of(tick, found->time, robot, truth);
+    contact.with = found->with;
+    contact.other = found->other;
+    contacts_.push_back(contact);
+  }
+}
+
 void ContactMonitor::check_peers(const Tick& tick, const std::vector<RobotTruth>& robots) {
-  double longest = 0.0;
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    centers_[i] = robots[i].motion.from;
-    longest = std::max(longest, length(robots[i].motion));
+  refresh_pairs(robots);
+  for (const auto& [i, j] : pairs_) check_pair(tick, robots, i, j);
+}
+
+void ContactMonitor::refresh_pairs(const std::vector<RobotTruth>& robots) {
+  bool fresh = centers_.size() == robots.size();
+  for (std::size_t i = 0; fresh && i < robots.size(); ++i) {
+    const double moved = std::max((robots[i].motion.from - centers_[i]).squaredNorm(),
+                                  (robots[i].motion.to - centers_[i]).squaredNorm());
+    fresh = moved <= kPairMargin * kPairMargin;
+  }
+  if (fresh) return;
+  double longest = 0.0;  // of this tick's motions: a fast robot may leave the margin within one tick
+  centers_.clear();
+  for (const RobotTruth& truth : robots) {
+    centers_.push_back(truth.motion.from);
+    longest = std::max(longest, length(truth.motion));
   }
   grid_.assign(centers_);
-  const double sum = 2.0 * robot_radius_;
+  pairs_.clear();
+  const double reach = 2.0 * robot_radius_ + kNearPeer + 2.0 * std::max(kPairMargin, longest);
   for (std::size_t i = 0; i < robots.size(); ++i)
-    grid_.visit(centers_[i], sum + kNearPeer + 2.0 * longest, [&](int other) {
+    grid_.visit(centers_[i], reach, [&](int other) {
       const auto j = static_cast<std::size_t>(other);
-      if (j <= i || (robots[i].wrecked && robots[j].wrecked)) return;
-      const double distance = swept_distance(robots[i].motion, robots[j].motion);
-      if (!robots[i].arrived || !robots[j].arrived)
-        peer_clearance_ = std::min(peer_clearance_, distance - sum);
-      const std::pair<int, int> pair{static_cast<int>(i), other};
-      if (distance >= sum || wrecked_pairs_.count(pair) > 0) return;
-      wrecked_pairs_.insert(pair);
-      const double share = first_within(robots[i].motion, robots[j].motion, sum).value_or(0.0);
-      const bool i_alive = !robots[i].wrecked;  // the one that can still be to blame
-      const std::size_t robot = i_alive ? i : j;
-      Contact contact = contact_of(tick, share, robot, robots[robot]);
-      contact.with = ContactWith::robot;
-      contact.other = static_cast<int>(i_alive ? j : i);
-      contact.other_speed = robots[i_alive ? j : i].velocity_world.norm();
-      contacts_.push_back(contact);
+      if (j > i && (centers_[j] - centers_[i]).norm() <= reach) pairs_.emplace_back(i, j);
     });
+}
+
+void ContactMonitor::check_pair(const Tick& tick, const std::vector<RobotTruth>& robots, std::size_t i,
+                                std::size_t j) {
+  if (robots[i].wrecked && robots[j].wrecked) return;
+  const double sum = 2.0 * robot_radius_;
+  const double distance = swept_distance(robots[i].motion, robots[j].motion);
+  if (!robots[i].arrived || !robots[j].arrived) peer_clearance_ = std::min(peer_clearance_, distance - sum);
+  if (distance >= sum || !touching_pairs_.insert({static_cast<int>(i), static_cast<int>(j)}).second) return;
+  const double share = first_within(robots[i].motion, robots[j].motion, sum).value_or(0.0);
+  const std::size_t robot = robots[i].wrecked ? j : i;  // one that still moves
+  const std::size_t other = robot == i ? j : i;
+  Contact contact = contact_of(tick, share, robot, robots[robot]);
+  contact.with = ContactWith::robot;
+  contact.other = static_cast<int>(other);
+  contact.other_speed = robots[other].velocity_world.norm();
+  contacts_.push_back(contact);
 }
 
 void ContactMonitor::forgive_newcomers(const std::vector<RobotTruth>& robots,

@@ -37,31 +37,53 @@ class ContactMonitor {
   [[nodiscard]] double dynamic_clearance() const { return dynamic_clearance_; }  ///< [m] minus radii
   [[nodiscard]] double peer_clearance() const { return peer_clearance_; }  ///< [m] exact below kNearPeer
 
-  static constexpr double kNearPeer = 1.0;  ///< [m] clearance from which peers are not looked at
+  /// Least gap of a robot to static shapes and border [m]; kFarStatic when it never came nearer.
+  [[nodiscard]] double static_clearance(int robot) const {
+    return static_clearance_[static_cast<std::size_t>(robot)];
+  }
+
+  static constexpr double kNearPeer = 1.0;   ///< [m] clearance from which peers are not looked at
+  static constexpr double kFarStatic = 3.0;  ///< [m] clearance from which static shapes are not looked at
 
   [[nodiscard]] const StaticShapes& shapes() const { return shapes_; }
 
  private:
   void check_movers(const Tick& tick, std::size_t robot, const RobotTruth& truth,
                     const std::vector<Mover>& movers);
+  void check_static(const Tick& tick, std::size_t robot, const RobotTruth& truth);
   void check_peers(const Tick& tick, const std::vector<RobotTruth>& robots);
+  void check_pair(const Tick& tick, const std::vector<RobotTruth>& robots, std::size_t i, std::size_t j);
+  void refresh_pairs(const std::vector<RobotTruth>& robots);
   void touch_person(std::size_t robot, const Mover& mover, const Contact& contact);
   void forgive_newcomers(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
   void note_standing(double dt, const std::vector<RobotTruth>& robots);
   [[nodiscard]] Contact contact_of(const Tick& tick, double share, std::size_t robot,
                                    const RobotTruth& truth) const;
 
+  /// A disc of places that are known to be free of static contact.
+  struct FreeDisc {
+    Eigen::Vector2d center = Eigen::Vector2d::Zero();  // [m]
+    double radius = -1.0;                              // [m]
+    /// The clearance at a place is at least this [m].
+    [[nodiscard]] double bound(const Eigen::Vector2d& place) const {
+      return radius - (place - center).norm();
+    }
+  };
+
   double robot_radius_;  // [m]
   StaticShapes shapes_;
-  std::vector<Eigen::Vector2d> centers_;  // of the robots at the tick's start, for the grid
-  UniformGrid grid_;
+  std::vector<FreeDisc> free_;                              // by robot
+  std::vector<double> static_clearance_;                    // [m] by robot
+  std::vector<Eigen::Vector2d> centers_;                    // of the robots when pairs_ was made
+  UniformGrid grid_;                                        // over centers_
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // that may come near before centers_ are too old
   std::vector<Contact> contacts_;
   std::vector<Contact> hits_while_standing_;
-  std::vector<double> standing_time_;            // [s] by robot
-  std::set<int> people_present_;                 // ids in the last tick
-  std::set<std::pair<int, int>> forgiven_;       // (robot, person): appeared too near, not yet gone
-  std::set<std::pair<int, int>> being_hit_;      // (robot, person): counted once while it lasts
-  std::set<std::pair<int, int>> wrecked_pairs_;  // robots that lie in each other
+  std::vector<double> standing_time_;             // [s] by robot
+  std::set<int> people_present_;                  // ids in the last tick
+  std::set<std::pair<int, int>> forgiven_;        // (robot, person): appeared too near, not yet gone
+  std::set<std::pair<int, int>> being_hit_;       // (robot, person): counted once while it lasts
+  std::set<std::pair<int, int>> touching_pairs_;  // robots that have touched: counted once
   double dynamic_distance_;
   double dynamic_clearance_;
   double peer_clearance_;

@@ -321,7 +321,7 @@ TrialResult Simulation::Implementation::result() {
   TrialResult result;
   result.trial = scenario.trial;
   meter.digest(robots, movers.all());
-  meter.finish(now(), robots, result);
+  meter.finish(now(), robots, monitor, result);
   result.contacts = monitor.contacts();
   const bool ends = scenario.simulation.trial.after_contact == AfterContact::end;
   if (ends && result.contacts.size() > 1) result.contacts.resize(1);
@@ -331,9 +331,6 @@ TrialResult Simulation::Implementation::result() {
   result.outcome = !result.contacts.empty() ? TrialOutcome::collision
                    : all_arrived            ? TrialOutcome::success
                                             : TrialOutcome::overtime;
-  result.dynamic_distance = monitor.dynamic_distance();
-  result.dynamic_clearance = monitor.dynamic_clearance();
-  result.peer_clearance = monitor.peer_clearance();
   result.plan_ms = std::move(plan_ms);
   result.control_us = std::move(control_us);
   result.messages = radio.messages_sent();
@@ -355,7 +352,6 @@ TrialResult Simulation::run() {
       self.hear();
       self.observe();
       self.think();
-      self.meter.clearances(self.robots, self.monitor.shapes());
     }
     if (self.tick % self.step_ticks == 0) self.record_frame();
     self.move();

@@ -32,9 +32,7 @@ TrialMeter::TrialMeter(const Scenario& scenario)
     : tasks_{scenario.robots},
       robot_{scenario.robot},
       parameters_{scenario.simulation.trial},
-      robots_(scenario.robots.size()) {
-  for (RobotResult& robot : robots_) robot.static_clearance = StaticShapes::kFar;
-}
+      robots_(scenario.robots.size()) {}
 
 const std::vector<int>& TrialMeter::moved(double time, std::vector<RobotTruth>& robots) {
   arrivals_.clear();
@@ -69,13 +67,6 @@ void TrialMeter::stood(int robot, const AgentStatus& status, double duration) {
   robots_[static_cast<std::size_t>(robot)].stood[static_cast<std::size_t>(status.reason)] += duration;
 }
 
-void TrialMeter::clearances(const std::vector<RobotTruth>& robots, const StaticShapes& shapes) {
-  for (std::size_t i = 0; i < robots.size(); ++i)
-    if (!robots[i].arrived)
-      robots_[i].static_clearance = std::min(robots_[i].static_clearance,
-                                             shapes.clearance(robots[i].pose.position_world, robot_.radius));
-}
-
 void TrialMeter::digest(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers) {
   const auto add = [this](const Eigen::Vector2d& position) {
     digest_ = mix(digest_ ^ bits_of(position.x()), bits_of(position.y()));
@@ -84,14 +75,19 @@ void TrialMeter::digest(const std::vector<RobotTruth>& robots, const std::vector
   for (const Mover& mover : movers) add(mover.motion.from);
 }
 
-void TrialMeter::finish(double time, const std::vector<RobotTruth>& robots, TrialResult& result) {
+void TrialMeter::finish(double time, const std::vector<RobotTruth>& robots, const ContactMonitor& monitor,
+                        TrialResult& result) {
   result.sim_seconds = time;
   result.digest = digest_;
-  result.static_clearance = StaticShapes::kFar;
+  result.static_clearance = ContactMonitor::kFarStatic;
+  result.dynamic_distance = monitor.dynamic_distance();
+  result.dynamic_clearance = monitor.dynamic_clearance();
+  result.peer_clearance = monitor.peer_clearance();
   for (std::size_t i = 0; i < robots.size(); ++i) {
     RobotResult& robot = robots_[i];
     robot.arrived = robots[i].arrived;
     robot.wrecked = robots[i].wrecked;
+    robot.static_clearance = monitor.static_clearance(static_cast<int>(i));
     const double straight = (tasks_[i].goal_world - tasks_[i].start.position_world).norm();
     const double fastest = rest_to_rest_time(straight, robot_.max_speed, robot_.max_acceleration);
     robot.path_length_ratio = straight > 0.0 ? robot.path_length / straight : 1.0;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sim/contact_monitor.hpp"
 #include "sim/movers.hpp"
 #include "sim/robot_truth.hpp"
 #include "sim/trial_result.hpp"
@@ -20,13 +21,12 @@ class TrialMeter {
   void planned(int robot, const PlanResult& plan);
   /// For `duration` [s] the robot has had this status.
   void stood(int robot, const AgentStatus& status, double duration);
-  /// Least static clearance.
-  void clearances(const std::vector<RobotTruth>& robots, const StaticShapes& shapes);
   /// All positions now, into the digest.
   void digest(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
 
   /// Fills what was metered into the result; the trial ended at `time` [s].
-  void finish(double time, const std::vector<RobotTruth>& robots, TrialResult& result);
+  void finish(double time, const std::vector<RobotTruth>& robots, const ContactMonitor& monitor,
+              TrialResult& result);
 
  private:
   std::vector<RobotTask> tasks_;
