@@ -42,6 +42,7 @@ class SpaceTimeRisk {
   void prepare(const PlanRequest& request);
 
   [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] double step() const { return parameters_.step; }  ///< [s]
   [[nodiscard]] int entity_count() const { return entity_count_; }
   [[nodiscard]] const Entity& entity(int index) const { return entities_[static_cast<std::size_t>(index)]; }
 

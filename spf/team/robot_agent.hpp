@@ -1,5 +1,6 @@
-// The whole robot behind one door: what it senses and hears goes in, wheel speeds and its broadcast come out. The
-// simulator and the ROS nodes are two hosts of it, so "simulated or real" is a choice of host and nothing else.
+// The whole robot behind one door: what it senses and hears goes in, wheel speeds and its broadcast come out.
+// The simulator and the ROS nodes are two hosts of it, so "simulated or real" is a choice of host and nothing
+// else.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,14 +22,14 @@ enum class StandReason {
   none,
   no_goal,
   arrived,
-  obstacle_ahead,   ///< waits for a moving obstacle (culprit = its id)
-  peer_ahead,       ///< waits for a teammate (culprit = its number)
-  no_path,          ///< the static map leaves no way to the goal
-  planner_failed,   ///< no safe plan within the budget; stands and tries again
-  stale_pose,       ///< no pose measurement for too long
-  stale_scan,       ///< no observation for too long
-  lost,             ///< too far from the plan
-  paused,           ///< told to
+  obstacle_ahead,  ///< waits for a moving obstacle (culprit = its id)
+  peer_ahead,      ///< waits for a teammate (culprit = its number)
+  no_path,         ///< the static map leaves no way to the goal
+  planner_failed,  ///< no safe plan within the budget; stands and tries again
+  stale_pose,      ///< no pose measurement for too long
+  stale_scan,      ///< no observation for too long
+  lost,            ///< too far from the plan
+  paused,          ///< told to
 };
 [[nodiscard]] const char* to_string(StandReason reason);
 
@@ -74,8 +75,9 @@ class RobotAgent {
   void clear_goal();
   void set_paused(bool paused);
 
-  /// The sequential form: receive, then plan and track where due. Call it at the rate of the pose measurements or
-  /// faster; plans and control ticks happen at their own rates (AgentParameters). Times must not go back.
+  /// The sequential form: receive, then plan and track where due. Call it at the rate of the pose
+  /// measurements or faster; plans and control ticks happen at their own rates (AgentParameters). Times must
+  /// not go back.
   AgentOutput step(double time, const AgentInput& input);
 
   // The halves of step(), for hosts that time them or run them on threads of their own.

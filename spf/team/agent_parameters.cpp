@@ -1,0 +1,36 @@
+#include "spf/team/agent_parameters.hpp"
+
+namespace spf {
+
+AgentParameters with_method(AgentParameters parameters, Method method) {
+  parameters.generator = method == Method::space_time ? Generator::space_time : Generator::field;
+  if (method == Method::space_time) return parameters;
+
+  // The paper's own presets (Section "Experimental Setup"): its observer with its gains, its self-sampling.
+  parameters.tracker.observer.kind = ObserverKind::eso;
+  parameters.tracker.reference.self_sampling = true;
+  parameters.planner.dynamic_model = DynamicModel::probability_field;
+  switch (method) {
+    case Method::es2:
+      parameters.planner.dynamic_model = DynamicModel::frozen;
+      break;
+    case Method::es2_constant_velocity:
+      parameters.planner.dynamic_model = DynamicModel::constant_velocity;
+      break;
+    case Method::spf_empc_without_field:
+      parameters.field.directional = false;
+      break;
+    case Method::spf_empc_without_self_sampling:
+      parameters.tracker.reference.self_sampling = false;
+      break;
+    case Method::spf_empc_without_observer:
+      parameters.tracker.observer.kind = ObserverKind::none;
+      break;
+    case Method::spf_empc:
+    case Method::space_time:
+      break;
+  }
+  return parameters;
+}
+
+}  // namespace spf
