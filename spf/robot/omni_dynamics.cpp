@@ -29,9 +29,14 @@ Eigen::Vector3d OmniDynamics::torques_for(const Eigen::Vector3d& wrench_body) co
   return parameters_.wheel_radius * (kinematics_.body_from_wheel().transpose() * wrench_body);
 }
 
+Eigen::Vector3d OmniDynamics::torques_for_acceleration(const Eigen::Vector3d& acceleration_body) const {
+  return torques_for(inertia_.cwiseProduct(acceleration_body));
+}
+
 double OmniDynamics::max_acceleration_along(const Eigen::Vector2d& direction_body) const {
-  const Eigen::Vector2d force = parameters_.mass * direction_body.normalized();  // for 1 m/s^2
-  return parameters_.max_wheel_torque / torques_for({force.x(), force.y(), 0.0}).cwiseAbs().maxCoeff();
+  const Eigen::Vector2d unit = direction_body.normalized();
+  return parameters_.max_wheel_torque /
+         torques_for_acceleration({unit.x(), unit.y(), 0.0}).cwiseAbs().maxCoeff();
 }
 
 void OmniDynamics::step(double dt, const Eigen::Vector3d& commanded_wheel_speeds) {

@@ -41,6 +41,8 @@ class OmniDynamics {
   [[nodiscard]] Eigen::Vector3d wrench_body(const Eigen::Vector3d& wheel_torques) const;
   /// Wheel torques [N m] that exert a wrench on the body.
   [[nodiscard]] Eigen::Vector3d torques_for(const Eigen::Vector3d& wrench_body) const;
+  /// Wheel torques [N m] that accelerate the body from rest [m/s^2, m/s^2, rad/s^2].
+  [[nodiscard]] Eigen::Vector3d torques_for_acceleration(const Eigen::Vector3d& acceleration_body) const;
   /// The largest acceleration [m/s^2] without turning, from rest, along a direction of the body (any length >
   /// 0) within the torque limits.
   [[nodiscard]] double max_acceleration_along(const Eigen::Vector2d& direction_body) const;

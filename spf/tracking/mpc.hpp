@@ -23,10 +23,11 @@ struct MpcParameters {
   double dt = 0.1;                ///< [s] (paper)
   double position_weight = 10.0;  ///< [1/m^2] lambda_p for x and y; the paper gives no value
   double heading_weight = 1.0;    ///< [1/rad^2] lambda_p for the heading
-  double effort_weight = 0.05;    ///< [s^2/m^2] lambda_u, on wheel speeds minus the reference's
-  double rate_weight = 0.0;       ///< [s^2/m^2] on the change of wheel speeds from step to step
-  double slack_weight = 1e5;      ///< [1/m^2] on violations of the state bounds
-  double x_lower = -1e6;          ///< [m] soft bounds of the robot's centre
+  double effort_weight = 0.5;     ///< [s^2/m^2] lambda_u, on wheel speeds minus the reference's
+  double rate_weight =
+      0.1;  ///< [s^2/m^2] on the change of wheel speeds from step to step; damps chatter under pose noise
+  double slack_weight = 1e5;  ///< [1/m^2] on violations of the state bounds
+  double x_lower = -1e6;      ///< [m] soft bounds of the robot's centre
   double x_upper = 1e6;
   double y_lower = -1e6;
   double y_upper = 1e6;
@@ -98,6 +99,7 @@ class ModelPredictiveController {
   ModelPredictiveController(const MpcParameters& parameters, const OmniKinematics& kinematics);
 
   const MpcResult& solve(const MpcProblem& problem);
+  [[nodiscard]] const MpcResult& last() const { return result_; }
   /// Drops the warm start. It changes the work, not the optimum.
   void forget() { solver_.forget(); }
   [[nodiscard]] const MpcParameters& parameters() const { return parameters_; }

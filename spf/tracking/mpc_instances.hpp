@@ -75,6 +75,7 @@ inline MpcInstance make_mpc_instance(std::uint64_t seed, const MpcInstanceOption
   instance.robot.wheel_arm = options.wheel_arm;
   instance.parameters.horizon = options.horizon;
   instance.parameters.heading_weight = 10.0;
+  instance.parameters.effort_weight = 0.05;
   instance.parameters.rate_weight = options.rate_weight;
   const OmniKinematics kinematics{instance.robot};
   const CurvedReference curve{random};

@@ -143,6 +143,14 @@ Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest&
     reference.pose[static_cast<std::size_t>(k)] = point.pose + request.lead * point.twist;
     reference.twist[static_cast<std::size_t>(k)] = point.twist;
   }
+  if (parameters.self_sampling && 0.0 < request.hold && request.hold < request.dt) {
+    PoseAndTwist next = evaluate(trajectory, start + request.hold);
+    next.pose.z() = reference.pose[0].z() + angle_difference(next.pose.z(), reference.pose[0].z());
+    const Eigen::Vector3d held_mean =
+        (next.pose + request.lead * next.twist - reference.pose[0]) / request.hold;
+    const Eigen::Vector3d shift = reference.pose[0] + request.dt * held_mean - reference.pose[1];
+    for (std::size_t k = 1; k <= static_cast<std::size_t>(request.steps); ++k) reference.pose[k] += shift;
+  }
   for (std::size_t k = 0; k < static_cast<std::size_t>(request.steps); ++k) {
     Eigen::Vector3d twist = Eigen::Vector3d::Zero();  // held points ask for no speed of their own
     if (parameters.self_sampling) twist = (reference.pose[k + 1] - reference.pose[k]) / request.dt;

@@ -1,0 +1,30 @@
+// Parameters of the tracker: observer, reference and MPC.
+#pragma once
+
+#include "spf/math/parameters.hpp"
+#include "spf/tracking/mpc.hpp"
+#include "spf/tracking/observer_parameters.hpp"
+#include "spf/tracking/reference_sampler.hpp"
+
+namespace spf {
+
+struct TrackerParameters {
+  double control_period = 0.05;  ///< [s] between control ticks
+  bool compensate_lag = true;    ///< reckon with RobotParameters::motor_lag; the paper does not
+  ObserverParameters observer;
+  ReferenceParameters reference;
+  MpcParameters mpc;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("control_period", self.control_period, "s", Range{1e-3, 1.0},
+          "time between control ticks; our choice");
+    visit("compensate_lag", self.compensate_lag,
+          "reckon with the first-order lag of the motors in observer and MPC; our addition");
+    visit.group("observer", self.observer);
+    visit.group("reference", self.reference);
+    visit.group("mpc", self.mpc);
+  }
+};
+
+}  // namespace spf
