@@ -40,6 +40,7 @@ WalkEnd walk(const Trajectory& trajectory, double from, const Encounter& encount
   const double slowness = 1.0 / std::max(encounter.approach_speed, 1e-3);
   const bool only_looking = std::isinf(floor);
   WalkEnd end;
+  bool inside = false;
   for (double time = from; time <= encounter.until;) {
     cursor.move_to(time);
     const double now = clearance(time, cursor.position());
@@ -51,7 +52,8 @@ WalkEnd walk(const Trajectory& trajectory, double from, const Encounter& encount
       end.clearance = now;
       return end;
     }
-    if (now >= 0.0 && !only_looking) floor = 0.0;
+    inside = inside || now < 0.0;
+    if (inside && now >= 0.0 && !only_looking) floor = 0.0;
     if (time >= encounter.until) break;
     time =
         std::min(encounter.until, time + std::max(ClearanceModel::kShortestStep, std::abs(now) * slowness));

@@ -40,9 +40,14 @@ struct StaticSearch {
   }
 };
 
-int last_moving_node(int nodes, double fraction, bool tail_is_goal) {
-  if (tail_is_goal) return nodes - 1;
-  return std::clamp(static_cast<int>(std::ceil(fraction * (nodes - 1))), 1, nodes - 1);
+/// The near part of a plan heeds what moves; never less than it takes to stop twice and to think again.
+int last_moving_node(const NodeSet& nodes, double fraction, bool tail_is_goal, const RobotParameters& robot) {
+  const int tail = nodes.size() - 1;
+  if (tail_is_goal) return tail;
+  const double enough = 1.0 + 2.0 * robot.max_speed / robot.max_acceleration;  // [s]
+  int last = std::clamp(static_cast<int>(std::ceil(fraction * tail)), 1, tail);
+  while (last < tail && nodes[last].time < nodes[0].time + enough) ++last;
+  return last;
 }
 
 bool is_finite(const PlanRequest& request) {
@@ -95,6 +100,12 @@ void FieldPlanner::plan(const PlanRequest& request, const GuidePath& guide, Plan
   brake_ = braking_trajectory(request.head, request.heading, request.time, robot_);
   if (stands_at_goal(request, guide, result)) return;
 
+  const GuideOutcome way = guide.outcome();
+  if (way == GuideOutcome::unreachable || way == GuideOutcome::no_free_goal) {
+    conclude(request, PlanOutcome::no_path, result);
+    return;
+  }
+
   // 3. Seeds in turn, until one leads to an accepted plan.
   LocalTarget target = seeds_.local_target(request, guide, clearance_, planner_.horizon);
   bool in_budget = true;
@@ -108,7 +119,7 @@ void FieldPlanner::plan(const PlanRequest& request, const GuidePath& guide, Plan
     if (best_.valid || !in_budget) break;
   }
   // 4. The best accepted plan, or the way to rest.
-  conclude(request, guide, in_budget, result);
+  conclude(request, in_budget ? PlanOutcome::unsafe : PlanOutcome::deadline, result);
 }
 
 void FieldPlanner::prepare(const PlanRequest& request) {
@@ -134,7 +145,7 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   problem_.ends = {request.head, target.state};
   optimizer_.set(problem_, seed_);
   const NodeSet& nodes = optimizer_.nodes();
-  problem_.last_moving_node = last_moving_node(nodes.size(), planner_.checked_fraction, target.is_goal);
+  problem_.last_moving_node = last_moving_node(nodes, planner_.checked_fraction, target.is_goal, robot_);
   problem_.discs = &clearance_.discs();
   problem_.static_pairs = &static_pairs_;
   (planner_.dynamic_model == DynamicModel::frozen ? problem_.frozen_pairs : problem_.field_pairs) =
@@ -309,8 +320,7 @@ void FieldPlanner::add_heading(const PlanRequest& request, Trajectory& trajector
       fitted_heading(trajectory, request.heading, *request.goal_heading, robot_, kinematics_));
 }
 
-void FieldPlanner::conclude(const PlanRequest& request, const GuidePath& guide, bool in_budget,
-                            PlanResult& result) {
+void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, PlanResult& result) {
   result.stats.searches = finder_.searches();
   if (best_.valid) {
     result.outcome = PlanOutcome::success;
@@ -325,10 +335,7 @@ void FieldPlanner::conclude(const PlanRequest& request, const GuidePath& guide, 
     }
     if (best_.candidate >= 0) result.candidates[static_cast<std::size_t>(best_.candidate)].chosen = true;
   } else {
-    const bool walled_in = !guide.reachable(request.head.position_world);
-    result.outcome = walled_in   ? PlanOutcome::no_path
-                     : in_budget ? PlanOutcome::unsafe
-                                 : PlanOutcome::deadline;
+    result.outcome = failure;
     result.trajectory = brake_;
     result.risk = risk_of(result.trajectory, result.trajectory.end_time());
     if (last_report_.kind == ConflictKind::peer) result.blocking_peer = last_report_.id;

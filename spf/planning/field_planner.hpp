@@ -62,7 +62,8 @@ class FieldPlanner {
   [[nodiscard]] double side_discount(double time) const;
   [[nodiscard]] double risk_of(const Trajectory& trajectory, double until) const;
   void add_heading(const PlanRequest& request, Trajectory& trajectory) const;
-  void conclude(const PlanRequest& request, const GuidePath& guide, bool in_budget, PlanResult& result);
+  /// Hands the best accepted plan over, or brakes with the outcome `failure`.
+  void conclude(const PlanRequest& request, PlanOutcome failure, PlanResult& result);
 
   PlannerParameters planner_;
   RobotParameters robot_;

@@ -34,7 +34,7 @@ struct CostWeights {
   double static_hard = 30.0;   ///< [1/s] at the inflated surface
   double static_soft = 100.0;  ///< [1/s] about that of the inflated surface
   double spacing = 10.0;       ///< [1] at the mean node distance of piece_length / nodes_per_piece
-  double dynamic = 5.0;        ///< [1] omega_dyn of eq. 9, per point on the field's ellipse
+  double dynamic = 50.0;       ///< [1] omega_dyn of eq. 9, per point on the field's ellipse
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -66,7 +66,7 @@ struct PlannerParameters {
   double soft_clearance = 0.3;      ///< [m] comfortable beyond that
   double peer_margin = 0.05;        ///< [m] beyond contact, for checks
   double peer_clearance = 0.25;     ///< [m] wanted beyond contact with peers
-  double safety_distance = 0.1;     ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
+  double safety_distance = 0.3;     ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
   double least_sideways =
       0.7;  ///< [1] sine of the least angle between escape direction and way through the field
   int max_side_combinations = 8;        ///< [1] ways past the obstacles in conflict that are optimised

@@ -59,7 +59,8 @@ LocalTarget SeedMaker::local_target(const PlanRequest& request, const GuidePath&
     return true;
   };
   target.way = horizon;
-  for (int i = 0; i < 20; ++i) {
+  bool moved = false;
+  for (int i = 0; i < 20; ++i, moved = true) {
     const double back = horizon - i * step;
     const double ahead = std::min(whole, horizon + i * step);
     if (back > 0.3 * horizon && is_free(back)) {
@@ -73,9 +74,11 @@ LocalTarget SeedMaker::local_target(const PlanRequest& request, const GuidePath&
   }
   target.state.position_world = on_way(target.way);
 
-  // Cruise on along the way, slow enough to stop at the goal.
+  // Cruise on along the way, slow enough to stop at the goal; stop where something stands beyond the target.
   const double left = whole - target.way;
   const double speed = std::min(robot_.max_speed, std::sqrt(robot_.max_acceleration * left));
+  const double stopping_way = speed * speed / (2.0 * robot_.max_acceleration);
+  if (moved || !is_free(std::min(whole, target.way + stopping_way))) return target;
   const Eigen::Vector2d ahead =
       on_way(std::min(whole, target.way + robot_.radius)) - target.state.position_world;
   if (ahead.norm() > 1e-6) target.state.velocity_world = speed * ahead.normalized();
