@@ -17,8 +17,8 @@ struct SpaceTimeParameters {
   double accepted_risk = 0.02;         ///< [s] the direct way is taken at once below this
   double keep_bonus = 0.05;            ///< [s] in favour of the plan under way
   double margin = 0.1;                 ///< [m] added to the radii towards everything that moves
-  double static_margin = 0.05;         ///< [m] added to the robot's radius towards the static map
-  double static_sigma = 0.03;          ///< [m] softness of static surfaces
+  double static_margin = 0.02;         ///< [m] added to the robot's radius towards the static map
+  double static_sigma = 0.02;          ///< [m] softness of static surfaces
   double sigma_floor = 0.03;           ///< [m] smallest uncertainty of a moving obstacle
   double peer_sigma = 0.02;            ///< [m] uncertainty of a peer's plan now
   double peer_sigma_growth = 0.08;     ///< [m/s] and its growth: peers plan again

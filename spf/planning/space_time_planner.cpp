@@ -33,21 +33,20 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
   if (score.time > enough) return score;
 
-  // Static surfaces: the chance that the own position error reaches one, faded like every risk.
+  // Static surfaces: the chance that the own position error reaches one. It does not fade: a wall will still be there,
+  // and a risk that fades would be put off for ever.
   const OccupancyMap& map = *request.world.map;
   const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
   const double wanted_clearance = robot_.radius + parameters_.static_margin;
-  double static_chance = 0.0;
+  double least = std::numeric_limits<double>::infinity();
   for (int k = 1; k <= roll_out.steps; ++k) {
-    const double clearance =
-        map.distance(roll_out.position_world[static_cast<std::size_t>(k)]) - wanted_clearance;
-    if (clearance > 4.0 * softness) continue;
-    const double fading = std::exp(-k * settings_.step / parameters_.risk_fading);
-    // Deeper is worse without end, so that a robot inside the margin is led out of it.
-    const double depth = std::max(0.0, -clearance) / wanted_clearance;
-    static_chance =
-        std::max(static_chance, fading * (0.5 * std::erfc(clearance / softness * kSqrtHalf) + depth));
+    least = std::min(least, map.distance(roll_out.position_world[static_cast<std::size_t>(k)]));
   }
+  const double clearance = least - wanted_clearance;
+  // Deeper is worse without end, so that a robot inside the margin is led out of it.
+  const double depth = std::max(0.0, -clearance) / wanted_clearance;
+  const double static_chance =
+      clearance > 4.0 * softness ? 0.0 : 0.5 * std::erfc(clearance / softness * kSqrtHalf) + depth;
   const double left = (enough - score.time) / std::max(parameters_.risk_price, 1e-9) - static_chance;
   score.risk = static_chance * parameters_.risk_price;
   if (left < 0.0) return score;

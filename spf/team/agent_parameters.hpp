@@ -106,7 +106,7 @@ struct AgentParameters {
   TeamParameters team;
   FieldParameters field;
   PlannerParameters planner;
-  GuidePathParameters guide{0.05, 0.2, 10.0, 3.0};  ///< its clearance counts beyond the robot's radius here
+  GuidePathParameters guide{0.15, 0.2, 10.0, 3.0};  ///< its clearance counts beyond the robot's radius here
   SpaceTimeParameters space_time;
   TrackerParameters tracker;
   ObstacleTrackerParameters obstacles;

@@ -64,13 +64,11 @@ void SpaceTimeCost::operator()(NodeSet& nodes) const {
     const double clearance = map->distance(node.position) - wanted_clearance;
     const double z = clearance / static_sigma;
     if (z > kFarSigmas) continue;
-    const double fading = rate * std::exp(-std::max(0.0, ahead) / risk_fading);
     // Inside the margin the cost goes on growing, so that the way out is always downhill.
     const double depth = std::max(0.0, -clearance) / wanted_clearance;
-    penalty.integrand += fading * (tail_chance(z) + depth);
+    penalty.integrand += rate * (tail_chance(z) + depth);
     const double slope = -density(z) / static_sigma - (clearance < 0.0 ? 1.0 / wanted_clearance : 0.0);
-    penalty.wrt_position += fading * slope * map->distance_gradient(node.position);
-    if (ahead > 0.0) penalty.wrt_time -= fading * (tail_chance(z) + depth) / risk_fading;
+    penalty.wrt_position += rate * slope * map->distance_gradient(node.position);
   }
 }
 
