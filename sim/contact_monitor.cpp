@@ -91,7 +91,7 @@ void ContactMonitor::touch_person(std::size_t robot, const Mover& mover, const C
 
 /// Both ends of the motion in a free disc: so is all of it. Otherwise it is looked at closely.
 void ContactMonitor::check_static(const Tick& tick, std::size_t robot, const RobotTruth& truth) {
-  const double wanted = truth.arrived ? 0.0 : static_clearance_[robot];
+  const double wanted = truth.arrived ? 0.0 : std::max(static_clearance_[robot], 0.0);
   const double bound = std::min(free_[robot].bound(truth.motion.from), free_[robot].bound(truth.motion.to));
   if (bound > wanted) return;
   const double clearance = shapes_.clearance(truth.motion.to, robot_radius_);

@@ -3,6 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "sim/geometry.hpp"
+#include "spf/math/random_stream.hpp"
 
 namespace spf::sim {
 namespace {
@@ -123,6 +129,56 @@ TEST(ContactMonitor, PeopleWhoAppearTooNearAreForgivenUntilTheyHaveLeft) {
   stage.run();
   stage.put_person(7, {0.4, 0.0});
   EXPECT_EQ(stage.run().contacts().size(), 1U);
+}
+
+/// Robots that wander through a cluttered place, and what a look at everything in every tick finds.
+TEST(ContactMonitor, ShortcutsFindWhatALookAtEverythingFinds) {
+  RandomStream random{31};
+  Scenario scenario;
+  scenario.border = square(Eigen::Vector2d::Zero(), 24.0);
+  for (int i = 0; i < 8; ++i)
+    scenario.boxes.push_back(square({random.uniform(-9, 9), random.uniform(-9, 9)}, 1.0));
+  scenario.pillars = {{{5.0, 5.0}, 0.7}};
+  constexpr std::size_t kRobots = 12;
+  scenario.robots.resize(kRobots);
+  const double radius = scenario.robot.radius;
+  std::vector<RobotTruth> robots(kRobots);
+  for (RobotTruth& truth : robots) {
+    truth.motion.to = {random.uniform(-11, 11), random.uniform(-11, 11)};
+    truth.velocity_world = random.normal2();
+  }
+  ContactMonitor monitor{scenario};
+  const StaticShapes shapes{scenario};
+  std::size_t static_contacts = 0;
+  std::set<std::pair<std::size_t, std::size_t>> touched;
+  std::vector<double> least(kRobots, ContactMonitor::kFarStatic);
+  double least_peer = ContactMonitor::kNearPeer;
+  for (int tick = 0; tick < 4000; ++tick) {
+    for (std::size_t i = 0; i < kRobots; ++i) {
+      RobotTruth& truth = robots[i];
+      truth.velocity_world += 0.1 * random.normal2() - 0.002 * truth.motion.to;
+      const double jump = i == 0 && tick % 500 == 0 ? 100.0 : 1.0;  // one leaves every margin at once
+      truth.motion = {truth.motion.to, truth.motion.to + jump * kDt * truth.velocity_world};
+      static_contacts += shapes.first_contact(truth.motion, radius).has_value();
+      least[i] = std::min(least[i], shapes.clearance(truth.motion.to, radius));
+    }
+    for (std::size_t i = 0; i < kRobots; ++i)
+      for (std::size_t j = i + 1; j < kRobots; ++j) {
+        const double gap = swept_distance(robots[i].motion, robots[j].motion) - 2.0 * radius;
+        least_peer = std::min(least_peer, gap);
+        if (gap < 0.0) touched.insert({i, j});
+      }
+    monitor.check({tick * kDt, kDt, 0.0, 0.05}, robots, {});
+  }
+  std::size_t with_robots = 0;
+  for (const Contact& contact : monitor.contacts()) with_robots += contact.with == ContactWith::robot;
+  EXPECT_EQ(monitor.contacts().size() - with_robots, static_contacts);
+  EXPECT_EQ(with_robots, touched.size());
+  EXPECT_GT(static_contacts, 10U);
+  EXPECT_GT(touched.size(), 5U);
+  EXPECT_EQ(monitor.peer_clearance(), least_peer);
+  for (std::size_t i = 0; i < kRobots; ++i)
+    EXPECT_NEAR(monitor.static_clearance(static_cast<int>(i)), least[i], 1e-12);
 }
 
 }  // namespace
