@@ -3,8 +3,11 @@
 namespace spf {
 
 AgentParameters with_method(AgentParameters parameters, Method method) {
-  parameters.generator = method == Method::space_time ? Generator::space_time : Generator::field;
-  if (method == Method::space_time) return parameters;
+  if (method == Method::space_time || method == Method::orca) {
+    parameters.generator = method == Method::orca ? Generator::orca : Generator::space_time;
+    return parameters;
+  }
+  parameters.generator = Generator::field;
 
   // The paper's own presets (Section "Experimental Setup"): its observer with its gains, its self-sampling.
   parameters.tracker.observer.kind = ObserverKind::eso;
@@ -27,6 +30,7 @@ AgentParameters with_method(AgentParameters parameters, Method method) {
       parameters.tracker.observer.kind = ObserverKind::none;
       break;
     case Method::spf_empc:
+    case Method::orca:
     case Method::space_time:
       break;
   }

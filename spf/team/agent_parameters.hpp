@@ -8,9 +8,11 @@
 #include "spf/field/field_parameters.hpp"
 #include "spf/math/parameters.hpp"
 #include "spf/planning/guide_path.hpp"
+#include "spf/planning/orca_parameters.hpp"
 #include "spf/planning/planner_parameters.hpp"
 #include "spf/planning/space_time_parameters.hpp"
 #include "spf/robot/robot_parameters.hpp"
+#include "spf/team/team_parameters.hpp"
 #include "spf/tracking/tracker_parameters.hpp"
 #include "spf/world/obstacle_tracker.hpp"
 #include "spf/world/occupancy_parameters.hpp"
@@ -26,26 +28,32 @@ enum class Method {
   spf_empc_without_field,          ///< its field does not see velocity (Table 3, "w/o SPF")
   spf_empc_without_self_sampling,  ///< its controller follows discrete points (Table 3, "w/o SS")
   spf_empc_without_observer,       ///< its controller takes raw measurements (Table 3, "w/o ESO")
+  orca,                            ///< a reactive rule as the yardstick (docs/add_a_method.md)
   space_time,                      ///< ours (docs/space_time.md), the default
 };
 template <>
 struct EnumNames<Method> {
-  static constexpr std::array<std::pair<Method, const char*>, 7> values{
+  static constexpr std::array<std::pair<Method, const char*>, 8> values{
       {{Method::es2, "es2"},
        {Method::es2_constant_velocity, "es2_constant_velocity"},
        {Method::spf_empc, "spf_empc"},
        {Method::spf_empc_without_field, "spf_empc_without_field"},
        {Method::spf_empc_without_self_sampling, "spf_empc_without_self_sampling"},
        {Method::spf_empc_without_observer, "spf_empc_without_observer"},
+       {Method::orca, "orca"},
        {Method::space_time, "space_time"}}};
 };
 
 /// Which generator makes the plans.
-enum class Generator { field, space_time };
+enum class Generator {
+  field,       ///< the paper's: MINCO, L-BFGS, safety probability field (and the baselines)
+  space_time,  ///< ours
+  orca,        ///< a reactive rule
+};
 template <>
 struct EnumNames<Generator> {
-  static constexpr std::array<std::pair<Generator, const char*>, 2> values{
-      {{Generator::field, "field"}, {Generator::space_time, "space_time"}}};
+  static constexpr std::array<std::pair<Generator, const char*>, 3> values{
+      {{Generator::field, "field"}, {Generator::space_time, "space_time"}, {Generator::orca, "orca"}}};
 };
 
 /// Where the body's x axis points while the robot moves.
@@ -54,47 +62,6 @@ template <>
 struct EnumNames<HeadingMode> {
   static constexpr std::array<std::pair<HeadingMode, const char*>, 3> values{
       {{HeadingMode::keep, "keep"}, {HeadingMode::goal, "goal"}, {HeadingMode::motion, "motion"}}};
-};
-
-/// Rates, time-outs and rules of the agent itself.
-struct TeamParameters {
-  double plan_period = 0.1;        ///< [s] between planning checks
-  double replan_period = 1.0;      ///< [s] a plan of the field generator is renewed at least this often
-  double message_period = 0.2;     ///< [s] the committed plan is told again at least this often
-  double message_lifetime = 1.5;   ///< [s] after which a peer may no longer rely on it
-  double stale_time = 0.3;         ///< [s] without pose or observation until the robot brakes
-  double goal_tolerance = 0.05;    ///< [m] within which the robot counts itself arrived
-  double reanchor_distance = 0.3;  ///< [m] from the plan beyond which the plan starts anew at the robot
-  double emergency_time = 1.0;     ///< [s] predicted contact sooner than this (or than braking takes): brake
-  double retry_first = 0.2;        ///< [s] back-off after a failed plan
-  double retry_longest = 1.6;      ///< [s] longest back-off
-  double guide_period = 0.5;       ///< [s] the guide path follows a changing map at most this often
-  bool keep_candidates = false;    ///< keep every candidate of a plan, for display (allocates)
-
-  template <class Self, class Visitor>
-  static void visit_fields(Self& self, Visitor&& visit) {
-    visit("plan_period", self.plan_period, "s", Range{0.01, 2.0}, "time between planning checks");
-    visit("replan_period", self.replan_period, "s", Range{0.05, 10.0},
-          "a plan of the field generator is renewed at least this often");
-    visit("message_period", self.message_period, "s", Range{0.01, 10.0},
-          "the committed plan is broadcast again at least this often");
-    visit("message_lifetime", self.message_lifetime, "s", Range{0.1, 60.0},
-          "time after which peers no longer rely on a broadcast");
-    visit("stale_time", self.stale_time, "s", Range{0.02, 10.0},
-          "time without pose or observation until the robot brakes");
-    visit("goal_tolerance", self.goal_tolerance, "m", Range{0.001, 1.0},
-          "distance within which the robot counts itself arrived");
-    visit("reanchor_distance", self.reanchor_distance, "m", Range{0.02, 10.0},
-          "distance from the plan beyond which it starts anew at the robot");
-    visit("emergency_time", self.emergency_time, "s", Range{0.0, 10.0},
-          "a predicted contact sooner than this makes the robot brake when it finds no plan");
-    visit("retry_first", self.retry_first, "s", Range{0.0, 10.0}, "first wait after a failed plan");
-    visit("retry_longest", self.retry_longest, "s", Range{0.0, 60.0},
-          "longest wait after failed plans (it doubles each time)");
-    visit("guide_period", self.guide_period, "s", Range{0.0, 60.0},
-          "the guide path follows a changing map at most this often");
-    visit("keep_candidates", self.keep_candidates, "keep every candidate of a plan, for display");
-  }
 };
 
 struct AgentParameters {
@@ -108,6 +75,7 @@ struct AgentParameters {
   PlannerParameters planner;
   GuidePathParameters guide{0.15, 0.2, 10.0, 3.0};  ///< its clearance counts beyond the robot's radius here
   SpaceTimeParameters space_time;
+  OrcaParameters orca;
   TrackerParameters tracker;
   ObstacleTrackerParameters obstacles;
   PeerTableParameters peers;
@@ -125,6 +93,7 @@ struct AgentParameters {
     visit.group("planner", self.planner);
     visit.group("guide", self.guide);
     visit.group("space_time", self.space_time);
+    visit.group("orca", self.orca);
     visit.group("tracker", self.tracker);
     visit.group("obstacles", self.obstacles);
     visit.group("peers", self.peers);

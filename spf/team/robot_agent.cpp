@@ -8,7 +8,9 @@
 #include "spf/planning/braking.hpp"
 #include "spf/planning/clearance.hpp"
 #include "spf/planning/guide_path.hpp"
+#include "spf/planning/orca_planner.hpp"
 #include "spf/planning/space_time_planner.hpp"
+#include "spf/team/field_replanning.hpp"
 #include "spf/tracking/tracker.hpp"
 #include "spf/world/obstacle_tracker.hpp"
 #include "spf/world/peer_table.hpp"
@@ -24,6 +26,12 @@ GuidePathParameters guide_parameters(const AgentParameters& parameters) {
   GuidePathParameters guide = parameters.guide;
   guide.clearance += parameters.robot.radius;
   return guide;
+}
+
+PlannerParameters planner_parameters(const AgentParameters& parameters) {
+  PlannerParameters planner = parameters.planner;
+  planner.keep_candidates = parameters.team.keep_candidates;
+  return planner;
 }
 
 }  // namespace
@@ -72,7 +80,7 @@ struct RobotAgent::Implementation {
   [[nodiscard]] PlanRequest make_request(double time);
   void refresh_guide(double time);
   void make_plan(double time);
-  void commit(const Trajectory& trajectory, const PlanRequest& request);
+  void commit(const PlanRequest& request, bool brakes);
   void brake(double time);
   void explain_standing();
   [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request) const;
@@ -88,6 +96,8 @@ struct RobotAgent::Implementation {
   PeerTable peer_table;
   GuidePath guide;
   SpaceTimePlanner space_time;
+  OrcaPlanner orca;
+  FieldReplanning field;
 
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
@@ -125,6 +135,8 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       peer_table{robot_id, parameters.peers},
       guide{guide_parameters(parameters)},
       space_time{parameters.space_time, parameters.robot},
+      orca{parameters.orca, parameters.robot},
+      field{planner_parameters(parameters), parameters.robot, parameters.field, parameters.team},
       committed{Trajectory::standing(start.position_world, time, 1.0, HeadingProfile{start.heading})},
       held_heading{start.heading},
       kinematics{parameters.robot},
@@ -250,15 +262,31 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double time) {
 
 void RobotAgent::Implementation::make_plan(double time) {
   const PlanRequest request = make_request(time);
-  space_time.plan(request, guide, parameters.team.keep_candidates, result);
-  commit(result.trajectory, request);
+  switch (parameters.generator) {
+    case Generator::space_time:
+      space_time.plan(request, guide, parameters.team.keep_candidates, result);
+      commit(request, false);
+      break;
+    case Generator::orca:
+      orca.plan(request, guide, parameters.team.keep_candidates, result);
+      commit(request, false);
+      break;
+    case Generator::field: {
+      const ReplanDecision decision = field.decide(request, guide, braking, result);
+      if (decision == ReplanDecision::commit) commit(request, false);
+      if (decision == ReplanDecision::brake) commit(request, true);
+      if (decision == ReplanDecision::keep && request.committed == nullptr) brake(time);
+      break;
+    }
+  }
 }
 
-void RobotAgent::Implementation::commit(const Trajectory& trajectory, const PlanRequest& request) {
-  braking = false;
-  if (request.committed != nullptr && trajectory.start_time() < request.time)
-    return;  // the plan under way stays
-  committed = trajectory;
+/// Makes the result's trajectory the one under way.
+void RobotAgent::Implementation::commit(const PlanRequest& request, bool brakes) {
+  braking = brakes;
+  if (request.committed != nullptr && result.trajectory.start_time() < request.time)
+    return;  // it is the old one
+  committed = result.trajectory;
   committed.set_heading(heading_for(request));
 }
 
@@ -357,6 +385,7 @@ void RobotAgent::set_goal(const Eigen::Vector2d& goal_world, std::optional<doubl
   if (!goal_world.allFinite() || !std::isfinite(goal_heading.value_or(0.0))) {
     throw std::invalid_argument{"the goal of robot " + std::to_string(robot_id()) + " must be finite"};
   }
+  implementation_->field.reset();
   implementation_->goal = goal_world;
   implementation_->goal_heading = goal_heading;
 }

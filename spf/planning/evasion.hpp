@@ -1,0 +1,24 @@
+// The last resort of the paper's planner: when no plan is found and standing (or braking) would be run into,
+// the short sidestep that stays clear longest. Frame: world.
+#pragma once
+
+#include "spf/planning/clearance.hpp"
+#include "spf/robot/robot_parameters.hpp"
+#include "spf/trajectory/trajectory.hpp"
+
+namespace spf {
+
+struct Evasion {
+  Trajectory trajectory;   ///< ends standing
+  ClearanceReport report;  ///< of that trajectory, up to `until`
+  bool sidestep = false;   ///< false: braking is the best there is
+};
+
+/// Braking and 16 sidesteps (half a second towards a velocity of full or half speed, then braking), all
+/// within the limits. The clear one with the largest clearance wins, braking at equal clearance; when none is
+/// clear, the one whose first conflict is latest. `model` is prepared for the present; conflicts are looked
+/// for until the absolute time `until` [s].
+[[nodiscard]] Evasion best_evasion(const FlatState& head, const HeadingState& heading, double time,
+                                   double until, const ClearanceModel& model, const RobotParameters& robot);
+
+}  // namespace spf

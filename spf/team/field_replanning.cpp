@@ -1,0 +1,92 @@
+#include "spf/team/field_replanning.hpp"
+
+#include <algorithm>
+
+#include "spf/planning/braking.hpp"
+
+namespace spf {
+namespace {
+
+constexpr double kCommittedMargin =
+    0.5;  // [1] of the margins: a plan is not dropped for what it was accepted with
+constexpr double kEvasionHorizon = 3.0;  // [s]
+constexpr double kTimeTolerance = 1e-9;  // [s]
+
+}  // namespace
+
+FieldReplanning::FieldReplanning(const PlannerParameters& planner, const RobotParameters& robot,
+                                 const FieldParameters& field, const TeamParameters& team)
+    : robot_{robot}, team_{team}, planner_{planner, robot, field}, check_{planner, robot, field} {}
+
+void FieldReplanning::reset() {
+  last_plan_time_ = -1e9;
+  retry_time_ = -1e9;
+  back_off_ = 0.0;
+}
+
+FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
+                                                   const PlanRequest& request) const {
+  Threat threat;
+  const double stop_time = request.head.velocity_world.norm() / robot_.max_acceleration;
+  const double until = std::max(trajectory.end_time(), request.time + kEvasionHorizon);
+  threat.report = check_.check(trajectory, {request.time, until, until, kCommittedMargin});
+  threat.conflict = !threat.report.clear();
+  threat.urgent = threat.conflict && threat.report.time - request.time < stop_time + team_.emergency_time;
+  // A moving peer of lower priority will plan around this robot: only when it gets close is it this robot's
+  // matter.
+  const bool yields = threat.report.kind == ConflictKind::peer && threat.report.id > request.world.robot_id;
+  if (yields && !threat.urgent) threat.conflict = false;
+  return threat;
+}
+
+bool FieldReplanning::plan_due(const PlanRequest& request, const Threat& threat, bool braking) const {
+  if (request.time < retry_time_ - kTimeTolerance) return false;
+  if (braking || threat.conflict || request.committed == nullptr) return true;
+  if (request.time - last_plan_time_ >= team_.replan_period - kTimeTolerance) return true;
+  return request.committed->end_time() - request.time < team_.emergency_time;
+}
+
+ReplanDecision FieldReplanning::decide(const PlanRequest& request, const GuidePath& guide, bool braking,
+                                       PlanResult& result) {
+  // 1. What lies ahead on the committed trajectory, up to its end and against everybody.
+  check_.prepare(request.world, request.time, PeerSelection::all);
+  Threat threat;
+  if (request.committed != nullptr) threat = threat_to(*request.committed, request);
+  if (!plan_due(request, threat, braking)) {
+    result.stats = {};
+    result.candidates.clear();
+    return threat.urgent ? fail(request, threat, braking, result) : ReplanDecision::keep;
+  }
+  // 2. A new plan, unless it is itself in for an early contact with somebody it does not plan around.
+  planner_.plan(request, guide, result);
+  const bool found = result.outcome == PlanOutcome::success || result.outcome == PlanOutcome::goal_reached;
+  if (found && !threat_to(result.trajectory, request).urgent) {
+    last_plan_time_ = request.time;
+    retry_time_ = -1e9;
+    back_off_ = 0.0;
+    return ReplanDecision::commit;
+  }
+  // 3. No plan: wait a little longer each time before the next attempt.
+  back_off_ = back_off_ > 0.0 ? std::min(2.0 * back_off_, team_.retry_longest) : team_.retry_first;
+  retry_time_ = request.time + back_off_;
+  return fail(request, threat, braking, result);
+}
+
+ReplanDecision FieldReplanning::fail(const PlanRequest& request, const Threat& threat, bool braking,
+                                     PlanResult& result) {
+  if (request.committed != nullptr && !threat.urgent) return ReplanDecision::keep;
+  if (result.outcome == PlanOutcome::success) result.outcome = PlanOutcome::unsafe;
+  if (threat.report.kind == ConflictKind::obstacle) result.blocking_track = threat.report.id;
+  if (threat.report.kind == ConflictKind::peer) result.blocking_peer = threat.report.id;
+  const Evasion evasion = best_evasion(request.head, request.heading, request.time,
+                                       request.time + kEvasionHorizon, check_, robot_);
+  if (evasion.sidestep && team_.retreat) {
+    result.trajectory = evasion.trajectory;
+    return ReplanDecision::brake;
+  }
+  if (braking) return ReplanDecision::keep;  // it brakes, or stands, already
+  result.trajectory = braking_trajectory(request.head, request.heading, request.time, robot_);
+  return ReplanDecision::brake;
+}
+
+}  // namespace spf

@@ -1,0 +1,48 @@
+// When the paper's planner is asked again, and what is done when it finds nothing: keep the plan, brake, step
+// aside, try again later (design: replanning). Every robot brakes for every peer here, whatever its priority.
+#pragma once
+
+#include "spf/planning/evasion.hpp"
+#include "spf/planning/field_planner.hpp"
+#include "spf/team/team_parameters.hpp"
+
+namespace spf {
+
+enum class ReplanDecision {
+  keep,    ///< the committed trajectory stays
+  commit,  ///< the result's trajectory replaces it
+  brake,   ///< likewise, but it is a way to rest (or aside) because no plan was found
+};
+
+class FieldReplanning {
+ public:
+  /// Throws std::invalid_argument when parameters are out of range.
+  FieldReplanning(const PlannerParameters& planner, const RobotParameters& robot,
+                  const FieldParameters& field, const TeamParameters& team);
+
+  /// One planning check. `braking`: the committed trajectory is a braking one. `result` tells what was done.
+  ReplanDecision decide(const PlanRequest& request, const GuidePath& guide, bool braking, PlanResult& result);
+  /// A new goal: plan at once.
+  void reset();
+
+ private:
+  /// What the committed trajectory is in for.
+  struct Threat {
+    bool conflict = false;
+    bool urgent = false;  ///< sooner than it takes to stop, and the emergency time
+    ClearanceReport report;
+  };
+  [[nodiscard]] Threat threat_to(const Trajectory& trajectory, const PlanRequest& request) const;
+  [[nodiscard]] bool plan_due(const PlanRequest& request, const Threat& threat, bool braking) const;
+  ReplanDecision fail(const PlanRequest& request, const Threat& threat, bool braking, PlanResult& result);
+
+  RobotParameters robot_;
+  TeamParameters team_;
+  FieldPlanner planner_;
+  ClearanceModel check_;          // against all peers
+  double last_plan_time_ = -1e9;  // [s] of the last success
+  double retry_time_ = -1e9;      // [s] no attempt before it
+  double back_off_ = 0.0;         // [s]
+};
+
+}  // namespace spf
