@@ -50,6 +50,13 @@ int last_moving_node(const NodeSet& nodes, double fraction, bool tail_is_goal, c
   return last;
 }
 
+/// The planned speed that the wheels can follow in every direction while the robot does not turn (no wheel is
+/// ever faster than the centre then). What is left for turning is found per plan (fitted_heading).
+RobotParameters within_wheel_limits(RobotParameters robot, double speed_tolerance) {
+  robot.max_speed = std::min(robot.max_speed, robot.max_wheel_speed / (1.0 + speed_tolerance));
+  return robot;
+}
+
 bool is_finite(const PlanRequest& request) {
   return std::isfinite(request.time) && request.head.position_world.allFinite() &&
          request.head.velocity_world.allFinite() && request.head.acceleration_world.allFinite() &&
@@ -63,14 +70,14 @@ bool is_finite(const PlanRequest& request) {
 FieldPlanner::FieldPlanner(const PlannerParameters& planner, const RobotParameters& robot,
                            const FieldParameters& field)
     : planner_{validated(planner)},
-      robot_{validated(robot)},
+      robot_{within_wheel_limits(validated(robot), planner.speed_tolerance)},
       kinematics_{robot},
       clearance_{planner, robot, field},
       guidance_{validated(field), planner.safety_distance, planner.least_sideways},
       finder_{planner.max_pieces * planner.nodes_per_piece + 1},
       search_{detour_search()},
-      seeds_{planner, robot},
-      optimizer_{planner, robot} {
+      seeds_{planner, robot_},
+      optimizer_{planner, robot_} {
   for (std::vector<GuidePair>* pairs : {&seed_pairs_, &static_pairs_, &dynamic_pairs_})
     pairs->reserve(kPairCapacity);
   conflicts_.reserve(64);

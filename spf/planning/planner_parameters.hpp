@@ -71,10 +71,10 @@ struct PlannerParameters {
       0.7;  ///< [1] sine of the least angle between escape direction and way through the field
   int max_side_combinations = 8;        ///< [1] ways past the obstacles in conflict that are optimised
   double side_bonus = 0.15;             ///< [1] discount of the side taken last time
-  int unsafe_retries = 3;               ///< [1] further runs of a candidate after a failed check
+  int unsafe_retries = 2;               ///< [1] further runs of a candidate after a failed check
   int max_rebounds = 20;                ///< [1] runs cut short by a newly met static obstacle
-  int run_evaluations = 150;            ///< [1] deadline of one optimiser run
-  int max_evaluations = 1500;           ///< [1] deadline of one plan
+  int run_evaluations = 60;             ///< [1] deadline of one optimiser run
+  int max_evaluations = 400;            ///< [1] deadline of one plan
   double speed_tolerance = 0.05;        ///< [1] accepted excess over max_speed
   double acceleration_tolerance = 0.1;  ///< [1] accepted excess over max_acceleration
   double slow_factor = 1.8;             ///< [1] stretch of time of the slow seed
