@@ -29,7 +29,7 @@ class ParameterRowCollector {
   }
   template <class Choice>
   void operator()(const char* name, const Choice& value, const char* what) {
-    rows_.push_back({prefix_ + name, to_text(value), "", choices(value), what});
+    rows_.push_back({prefix_ + name, to_text(value), "", choices_of(value), what});
   }
   template <class Nested>
   void group(const char* name, const Nested& nested) {
@@ -55,17 +55,6 @@ class ParameterRowCollector {
   [[nodiscard]] std::vector<ParameterRow> take() { return std::move(rows_); }
 
  private:
-  static std::string choices(bool) { return "true, false"; }
-  static std::string choices(const std::string&) { return "text"; }
-  template <class E>
-  requires std::is_enum_v<E>
-  static std::string choices(E) {
-    std::string names;
-    for (const auto& entry : EnumNames<E>::values)
-      names += (names.empty() ? "" : ", ") + std::string{entry.second};
-    return names;
-  }
-
   std::string prefix_;
   std::vector<ParameterRow> rows_;
 };

@@ -44,6 +44,13 @@ std::string to_text(const std::string& value) {
   return text + "\"";
 }
 
+std::string choices_of(bool) {
+  return "true, false";
+}
+std::string choices_of(const std::string&) {
+  return "text";
+}
+
 std::string to_text(Range range) {
   if (std::isinf(range.low) && std::isinf(range.high)) return "any";
   if (std::isinf(range.high)) return ">= " + to_text(range.low);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "spf/math/parameters.hpp"
 
@@ -27,6 +28,18 @@ template <class E>
 requires std::is_enum_v<E>
 [[nodiscard]] std::string to_text(E value) {
   return enum_name(value);
+}
+
+/// What may stand there: "true, false", "text", or the names of an enumeration.
+[[nodiscard]] std::string choices_of(bool);
+[[nodiscard]] std::string choices_of(const std::string&);
+template <class E>
+requires std::is_enum_v<E>
+[[nodiscard]] std::string choices_of(E) {
+  std::string names;
+  for (const auto& entry : EnumNames<E>::values)
+    names += (names.empty() ? "" : ", ") + std::string{entry.second};
+  return names;
 }
 
 /// "[0, 100]", ">= 0", "<= 5", "any"

@@ -1,0 +1,73 @@
+// spf check: is this a scenario, and what does the program understand by it?
+#include <iostream>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "experiments/input_problem.hpp"
+#include "report/table.hpp"
+#include "sim/scenario.hpp"
+
+namespace spf {
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  ScenarioOptions scenario;
+};
+
+std::string scene_text(const sim::Scenario& scenario) {
+  std::string text = std::to_string(scenario.robots.size()) + " robots";
+  const auto add = [&text](std::size_t count, const char* what) {
+    if (count > 0) text += ", " + std::to_string(count) + " " + what;
+  };
+  add(scenario.boxes.size(), "boxes");
+  add(scenario.pillars.size(), "static discs");
+  add(scenario.walls.size(), "walls");
+  add(scenario.discs.size(), "moving discs");
+  if (scenario.border) {
+    const Eigen::Vector2d size = scenario.border->high - scenario.border->low;
+    text += ", in " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " m";
+  }
+  return text;
+}
+
+void print_summary(const std::string& file, const Study& study) {
+  const sim::SimulationParameters& simulation = study.simulation;
+  std::cout << file << ": good\n  family " << enum_name(study.family) << ", method "
+            << enum_name(study.method) << ", seed " << study.seed << "\n  "
+            << scene_text(make_trial(study, 0)) << "\n  noise " << enum_name(simulation.noise.model) << " at "
+            << simulation.noise.level << " Sigma, map " << enum_name(simulation.sensing.map)
+            << ", detections " << enum_name(simulation.sensing.detections) << ", tracking "
+            << enum_name(simulation.trial.tracking) << "\n";
+}
+
+int check(const CheckOptions& options) {
+  bool good = true;
+  for (const std::string& file : options.files) {
+    try {
+      print_summary(file, read_study(file, options.scenario.to_settings()));
+    } catch (const InputError& error) {
+      std::cout.flush();
+      std::cerr << error.what() << "\n";
+      good = false;
+    }
+  }
+  return good ? kDone : kBadInput;
+}
+
+}  // namespace
+
+Verb add_check(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("check", "Validate scenario files and say what they mean");
+  const auto options = std::make_shared<CheckOptions>();
+  app->add_option("scenario", options->files, "scenario files")->type_name("FILE")->required();
+  options->scenario.add_to(*app);
+  app->footer(
+      "Examples:\n"
+      "  spf check scenarios/t2.yaml\n"
+      "  spf check my_place.yaml --set robot.radius=0.5\n"
+      "Exit status: 0 all files are good, 2 one is not; every problem is printed as file:line:column: ...");
+  return {app, [options](const std::vector<std::string>&) { return check(*options); }};
+}
+
+}  // namespace spf

@@ -1,0 +1,40 @@
+// What the verbs of the program have in common.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/scenario_file.hpp"
+
+namespace spf {
+
+inline constexpr int kDone = 0;
+inline constexpr int kFailedCheck = 1;  ///< ran, but failed what it checks
+inline constexpr int kBadInput = 2;     ///< bad usage, input, or a place that cannot be written
+
+/// A verb registers itself and returns what runs it, given the words of the command line; that returns the
+/// exit status.
+struct Verb {
+  CLI::App* app = nullptr;
+  std::function<int(const std::vector<std::string>& command)> run;
+};
+
+/// The options by which every verb changes a scenario.
+struct ScenarioOptions {
+  std::optional<std::string> seed, method, noise, level, tracking;
+  std::vector<std::string> settings;
+
+  void add_to(CLI::App& app);
+  /// As settings, in the order in which they count: named options first, then --set.
+  [[nodiscard]] std::vector<Setting> to_settings() const;
+};
+
+Verb add_run(CLI::App& program);
+Verb add_check(CLI::App& program);
+Verb add_parameters(CLI::App& program);
+
+}  // namespace spf

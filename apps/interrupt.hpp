@@ -1,0 +1,13 @@
+// Ctrl-C and SIGTERM as a question that long work asks itself.
+#pragma once
+
+namespace spf {
+
+/// From now on the first SIGINT or SIGTERM asks the program to stop; a second one ends it at once.
+void catch_interrupts();
+[[nodiscard]] bool interrupted();
+
+/// Exit status of a run that was interrupted, as shells know it.
+inline constexpr int kInterruptedStatus = 130;
+
+}  // namespace spf

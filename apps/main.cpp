@@ -1,0 +1,63 @@
+// The spf program: verbs, exit statuses, and how errors are told.
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <new>
+#include <vector>
+
+#include "apps/command.hpp"
+#include "apps/version.hpp"
+#include "experiments/input_problem.hpp"
+#include "experiments/results_folder.hpp"
+
+namespace {
+
+int run_program(int argc, char** argv) {
+  CLI::App program{
+      "spf: robots that cross cluttered, moving, uncertain places.\n"
+      "Simulates scenarios, repeats them over trials, and shows them in a replay page."};
+  program.name("spf");
+  program.set_version_flag("--version", "spf " + std::string{spf::version()} + " (commit " + spf::kCommit +
+                                            ", " + spf::compiler() + ")");
+  program.require_subcommand(1);
+  program.footer(
+      "Examples:\n"
+      "  spf run scenarios/f7.yaml --out results/f7\n"
+      "  spf run scenarios/t2.yaml --trials 50 --noise walk --level 1 --jobs 2\n"
+      "  spf check scenarios/*.yaml\n"
+      "  spf parameters | less\n"
+      "Exit status: 0 done, 1 ran but failed what it checks, 2 bad usage or input, 130 interrupted.\n"
+      "spf VERB --help explains each verb.");
+  program.failure_message(CLI::FailureMessage::simple);
+  const std::vector<spf::Verb> verbs{spf::add_run(program), spf::add_check(program),
+                                     spf::add_parameters(program)};
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? spf::kDone : spf::kBadInput;
+  }
+  for (const spf::Verb& verb : verbs)
+    if (verb.app->parsed()) return verb.run({argv, argv + argc});
+  return spf::kBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const int status = run_program(argc, argv);
+    std::cout.flush();
+    if (std::cout) return status;
+    std::cerr << "spf: the results could not be printed: standard output cannot be written\n";
+  } catch (const spf::InputError& error) {
+    std::cerr << error.what() << "\n";
+  } catch (const spf::OutputError& error) {
+    std::cerr << error.what() << "\n";
+  } catch (const std::bad_alloc&) {
+    std::cerr << "spf: not enough memory for this scenario\n";
+  } catch (const std::exception& error) {
+    std::cerr << "spf: " << error.what() << "\n";
+  }
+  return spf::kBadInput;
+}

@@ -1,0 +1,332 @@
+// The program as people and scripts meet it: exit statuses, messages, files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace spf {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kSource = SPF_SOURCE_DIR;
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream{path, std::ios::binary}.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines_of(const fs::path& path) {
+  std::istringstream text{text_of(path)};
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Finished {
+  int status = -1;
+  std::string out, error;
+};
+
+/// A folder for each test, and the program run in it.
+class Program : public testing::Test {
+ protected:
+  Program() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("good.yaml", kGood);
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  /// One robot, a short way, nothing in it; the trial ends within a few simulated seconds.
+  static constexpr const char* kGood =
+      "family: explicit\n"
+      "robots: [{start: [0, 0], goal: [2, 0]}]\n"
+      "moving: [{position: [0, 5], velocity: [0.5, 0]}]\n"
+      "border: {low: [-3, -8], high: [8, 8]}\n";
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream{folder_ / name} << text;
+  }
+  [[nodiscard]] std::string command(const std::string& arguments) const {
+    return "cd '" + folder_.string() + "' && '" SPF_PROGRAM "' " + arguments;
+  }
+  [[nodiscard]] Finished run(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout", error = folder_ / "stderr";
+    const int status = std::system(
+        (command(arguments) + " >'" + out.string() + "' 2>'" + error.string() + "' </dev/null").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(error)};
+  }
+
+  fs::path folder_ =
+      fs::path{testing::TempDir()} / ("spf_program_" + std::to_string(::getpid()) + "_" +
+                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(Program, ExplainsItself) {
+  for (const char* arguments : {"--help", "run --help", "check --help", "parameters --help"}) {
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.status, 0) << arguments;
+    EXPECT_THAT(finished.out, HasSubstr("Examples:")) << arguments;
+    EXPECT_EQ(finished.error, "") << arguments;
+  }
+  const Finished version = run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, StartsWith("spf 0."));
+  EXPECT_THAT(version.out, HasSubstr("commit "));
+}
+
+TEST_F(Program, RefusesBadUsage) {
+  for (const char* arguments :
+       {"", "fly", "run", "run good.yaml --fly", "run good.yaml --trials 0", "run good.yaml --trials 2.5",
+        "run good.yaml --jobs -1", "run good.yaml --first x", "run good.yaml --out", "run good.yaml extra",
+        "check", "parameters --markdown --json", "run good.yaml --seed",
+        "run good.yaml --trials 1 --trials 2"}) {
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.status, 2) << arguments;
+    EXPECT_NE(finished.error, "") << arguments;
+    EXPECT_EQ(finished.out, "") << arguments;
+  }
+}
+
+struct BadFile {
+  std::string text;
+  std::string expected;  ///< part of the report
+};
+
+TEST_F(Program, RefusesBadFilesWithFileLineAndKey) {
+  const std::string good = kGood;
+  const std::vector<BadFile> table{
+      {"", "bad.yaml: is empty"},
+      {"family", "bad.yaml:1:1: must be a map"},
+      {good + "method: [", "bad.yaml:5:1: is not YAML"},
+      {good + "seed: 1.5\n", "bad.yaml:5:7: seed = 1.5 must be a whole number"},
+      {good + "seed: -1\n", "bad.yaml:5:7: seed = -1 must be a whole number"},
+      {good + "robot: {radius: .nan}\n", "bad.yaml:5:17: robot.radius = .nan must be a number in m, not NaN"},
+      {good + "robot: {radius: -0.3}\n", "bad.yaml:5:17: robot.radius = -0.3 must lie in [0.01, 5] m"},
+      {good + "robot: {radius: 30 cm}\n",
+       "bad.yaml:5:17: robot.radius = 30 cm must be a number in m, written without"},
+      {good + "robot: {radios: 0.3}\n",
+       "bad.yaml:5:9: robot.radios = 0.3 is not a known key; did you mean robot.radius?"},
+      {good + "family: t2\n", "bad.yaml:5:1: key family stands twice (first in line 1)"},
+      {good + "boxes: [{low: [-1, -1], high: [1, 1]}]\n",
+       "bad.yaml:2:18: robots[0].start = [0, 0] is 0 m from boxes[0]"},
+      {good + "a: &a [*a]\n", "bad.yaml:5:"},
+      {std::string(3000, '['), "bad.yaml:1:"},
+      {"\xff\xfe", "bad.yaml:1:1: byte 0xff is not UTF-8"}};
+  for (const BadFile& bad : table) {
+    write("bad.yaml", bad.text);
+    for (const char* verb : {"check bad.yaml", "run bad.yaml --out results --json row.jsonl"}) {
+      const Finished finished = run(verb);
+      EXPECT_EQ(finished.status, 2) << bad.text;
+      EXPECT_THAT(finished.error, HasSubstr(bad.expected));
+      EXPECT_EQ(finished.out, "");
+      EXPECT_FALSE(fs::exists(folder_ / "results"));
+      EXPECT_FALSE(fs::exists(folder_ / "row.jsonl"));
+    }
+  }
+  EXPECT_THAT(run("run missing.yaml").error, HasSubstr("missing.yaml: no such file"));
+  EXPECT_THAT(run("run .").error, HasSubstr(".: is a directory"));
+  EXPECT_EQ(run("run .").status, 2);
+}
+
+TEST_F(Program, ReportsAllProblemsAtOnce) {
+  write("bad.yaml",
+        "family: explicit\nrobots: [{start: [0, 0], goal: [2, 0]}, {start: [0.1, 0], goal: [5, 5]}]\n"
+        "seed: x\nsensing: {beams: 2, ranje: 1}\n");
+  const Finished finished = run("check bad.yaml --level -1 --set radio.loss=2 --method magic");
+  EXPECT_EQ(finished.status, 2);
+  for (const char* expected :
+       {"bad.yaml:2:", "robots[1].start = [0.1, 0]", "bad.yaml:3:7: seed = x",
+        "bad.yaml:4:18: sensing.beams = 2", "did you mean sensing.range?", "--level: noise.level = -1",
+        "--set: radio.loss = 2", "--method: method = magic must be one of"})
+    EXPECT_THAT(finished.error, HasSubstr(expected));
+}
+
+TEST_F(Program, ChecksScenarios) {
+  const Finished good = run("check good.yaml '" + kSource + "/scenarios/f7.yaml'");
+  EXPECT_EQ(good.status, 0) << good.error;
+  EXPECT_THAT(good.out, HasSubstr("good.yaml: good"));
+  EXPECT_THAT(good.out, HasSubstr("12 robots"));
+  write("bad.yaml", "family: none");
+  const Finished mixed = run("check bad.yaml good.yaml");
+  EXPECT_EQ(mixed.status, 2);
+  EXPECT_THAT(mixed.out, HasSubstr("good.yaml: good"));
+  EXPECT_THAT(mixed.error, HasSubstr("bad.yaml:1:9: family = none"));
+}
+
+TEST_F(Program, RunsAScenarioAndKeepsItsResults) {
+  const Finished finished = run("run good.yaml --out results/one --json row.jsonl");
+  ASSERT_EQ(finished.status, 0) << finished.error << finished.out;
+  EXPECT_THAT(finished.out, HasSubstr("success"));
+  EXPECT_THAT(finished.out, HasSubstr("replay: results/one/replay.html"));
+  const fs::path results = folder_ / "results" / "one";
+  std::set<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator{results})
+    names.insert(entry.path().filename());
+  EXPECT_EQ(names, (std::set<std::string>{"replay.html", "run.json", "scenario.yaml", "summary.csv",
+                                          "summary.jsonl", "trials.jsonl"}));
+  EXPECT_THAT(text_of(results / "replay.html"), StartsWith("<!"));
+  const nlohmann::json row = nlohmann::json::parse(text_of(folder_ / "row.jsonl"));
+  EXPECT_EQ(row.size(), 31u);
+  EXPECT_EQ(row.at("family"), "explicit");
+  EXPECT_EQ(row.at("success"), 1);
+  EXPECT_EQ(text_of(results / "summary.jsonl"), text_of(folder_ / "row.jsonl"));
+  const nlohmann::json facts = nlohmann::json::parse(text_of(results / "run.json"));
+  EXPECT_EQ(facts.at("finished"), 1);
+  EXPECT_FALSE(facts.at("commit").get<std::string>().empty());
+  // The scenario as run gives the same trial again.
+  ASSERT_EQ(run("run results/one/scenario.yaml --out results/two").status, 0);
+  const auto digest = [](const fs::path& path) { return nlohmann::json::parse(text_of(path)).at("digest"); };
+  EXPECT_EQ(digest(results / "trials.jsonl"), digest(folder_ / "results" / "two" / "trials.jsonl"));
+}
+
+TEST_F(Program, TellsASingleRunThatFailed) {
+  const Finished single = run("run good.yaml --set trial.time_limit=0.5");
+  EXPECT_EQ(single.status, 1) << single.error;
+  EXPECT_THAT(single.out, HasSubstr("overtime"));
+  EXPECT_THAT(single.out, HasSubstr("not home in time: robot 0"));
+  const Finished many = run("run good.yaml --set trial.time_limit=0.5 --trials 3 --replays 2 --out results");
+  EXPECT_EQ(many.status, 0) << many.error;
+  EXPECT_TRUE(fs::exists(folder_ / "results" / "replay_trial_0.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "results" / "replay_trial_1.html"));
+  EXPECT_FALSE(fs::exists(folder_ / "results" / "replay_trial_2.html"));
+  EXPECT_EQ(lines_of(folder_ / "results" / "trials.jsonl").size(), 3u);
+  EXPECT_EQ(many.error, "");  // above all: every replay went the way of its trial
+}
+
+TEST_F(Program, PrintsTheRowAloneWhenAsked) {
+  const Finished finished =
+      run("run good.yaml --trials 2 --first 5 --json - --quiet --seed 7 --noise walk --level 0.25 --tracking "
+          "ideal");
+  ASSERT_EQ(finished.status, 0) << finished.error;
+  const nlohmann::json row = nlohmann::json::parse(finished.out);
+  EXPECT_EQ(row.at("trials"), 2);
+  EXPECT_EQ(row.at("seed"), 7);
+  EXPECT_EQ(row.at("noise"), "walk");
+  EXPECT_EQ(row.at("level"), 0.25);
+  EXPECT_EQ(row.at("tracking"), "ideal");
+}
+
+/// A trial's line without what a clock measured.
+std::string without_timings(const std::string& line) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(line);
+  for (const char* name : {"plan_time", "control_time", "wall_time"}) json.erase(name);
+  return json.dump();
+}
+
+TEST_F(Program, GivesTheSameRowsForAnyNumberOfJobs) {
+  const std::string what =
+      "run good.yaml --trials 6 --level 1 --noise walk --set sensing.detections=noisy --set "
+      "pose_noise.position_sigma=0.01 ";
+  ASSERT_EQ(run(what + "--jobs 1 --out a").status, 0);
+  ASSERT_EQ(run(what + "--jobs 4 --out b").status, 0);
+  const std::vector<std::string> a = lines_of(folder_ / "a" / "trials.jsonl"),
+                                 b = lines_of(folder_ / "b" / "trials.jsonl");
+  ASSERT_EQ(a.size(), 6u);
+  ASSERT_EQ(b.size(), 6u);
+  std::set<std::string> digests;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(without_timings(a[i]), without_timings(b[i]));
+    digests.insert(nlohmann::json::parse(a[i]).at("digest").get<std::string>());
+  }
+  EXPECT_EQ(digests.size(), 6u);  // and the trials do differ from each other
+}
+
+TEST_F(Program, TellsWhatCannotBeWritten) {
+  write("file", "x");
+  for (const char* arguments :
+       {"run good.yaml --out file", "run good.yaml --out file/below",
+        "run good.yaml --json missing/row.jsonl", "run good.yaml --json .", "run good.yaml --json /dev/full",
+        "parameters >/dev/full", "run good.yaml >/dev/full"}) {
+    const std::string words = arguments;
+    const std::size_t redirected = words.find('>');
+    Finished finished;
+    if (redirected == std::string::npos) {
+      finished = run(words);
+    } else {
+      const fs::path error = folder_ / "stderr";
+      const int status = std::system((command(words) + " 2>'" + error.string() + "'").c_str());
+      finished = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", text_of(error)};
+    }
+    EXPECT_EQ(finished.status, 2) << words;
+    EXPECT_NE(finished.error, "") << words;
+  }
+  EXPECT_EQ(text_of(folder_ / "file"), "x");
+}
+
+TEST_F(Program, KeepsFinishedTrialsWhenInterrupted) {
+  const fs::path trials = folder_ / "results" / "trials.jsonl";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const int changed = ::chdir(folder_.c_str());
+    const bool silenced = std::freopen("/dev/null", "w", stdout) != nullptr &&
+                          std::freopen("/dev/null", "w", stderr) != nullptr;
+    if (changed == 0 && silenced)
+      ::execl(SPF_PROGRAM, SPF_PROGRAM, "run", "good.yaml", "--trials", "1000000", "--out", "results",
+              nullptr);
+    ::_exit(99);
+  }
+  ASSERT_GT(child, 0);
+  // Wait for two trials; far longer than they ever take.
+  for (int i = 0; i < 12000 && lines_of(trials).size() < 2; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  ::kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  const std::vector<std::string> lines = lines_of(trials);
+  ASSERT_GE(lines.size(), 2u);
+  for (const std::string& line : lines) EXPECT_TRUE(nlohmann::json::accept(line));
+  const nlohmann::json facts = nlohmann::json::parse(text_of(folder_ / "results" / "run.json"));
+  EXPECT_EQ(facts.at("finished"), lines.size());
+  EXPECT_EQ(facts.at("trials"), 1000000);
+}
+
+TEST_F(Program, ListsParameters) {
+  const Finished table = run("parameters");
+  EXPECT_EQ(table.status, 0);
+  EXPECT_THAT(table.out, HasSubstr("agent.team.plan_period"));
+  const Finished json = run("parameters --json");
+  std::istringstream lines{json.out};
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const nlohmann::json row = nlohmann::json::parse(line);
+    for (const char* name : {"key", "default", "unit", "range", "what"})
+      EXPECT_TRUE(row.contains(name)) << line;
+    EXPECT_FALSE(row.at("what").get<std::string>().empty()) << line;
+  }
+  EXPECT_GT(count, 100);
+}
+
+TEST_F(Program, ExplainsAScenario) {
+  const Finished explained = run("parameters --explain good.yaml");
+  ASSERT_EQ(explained.status, 0) << explained.error;
+  write("explained.yaml", explained.out);
+  EXPECT_EQ(run("parameters --explain explained.yaml").out, explained.out);
+}
+
+TEST_F(Program, ParameterPageIsUpToDate) {
+  EXPECT_EQ(run("parameters --markdown").out, text_of(kSource + "/docs/parameters.md"))
+      << "remake it: spf parameters --markdown > docs/parameters.md";
+}
+
+}  // namespace
+}  // namespace spf

@@ -1,0 +1,119 @@
+#include "apps/run_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "apps/version.hpp"
+#include "experiments/parameter_text.hpp"
+#include "report/table.hpp"
+
+namespace spf {
+namespace {
+
+std::string percent(double share) {
+  return fixed(100.0 * share, 1) + " %";
+}
+
+std::string trials_text(const std::vector<TrialRecord>& trials) {
+  if (trials.size() == 1) return "number " + std::to_string(trials.front().key.trial);
+  return std::to_string(trials.size()) + " (" + std::to_string(trials.front().key.trial) + " to " +
+         std::to_string(trials.back().key.trial) + ")";
+}
+
+std::string success_text(const ResultRow& row) {
+  return std::to_string(row.success) + " of " + std::to_string(row.trials) + " = " +
+         percent(row.success_rate) + ", 95 % interval [" + fixed(100.0 * row.wilson_low, 1) + ", " +
+         fixed(100.0 * row.wilson_high, 1) + "]";
+}
+
+std::string failures_text(const std::vector<TrialRecord>& trials) {
+  constexpr std::size_t kMost = 20;
+  Table table{{{"trial"}, {"outcome", Alignment::left}, {"why", Alignment::left}}};
+  std::size_t failed = 0;
+  for (const TrialRecord& trial : trials) {
+    if (trial.outcome == "success" || ++failed > kMost) continue;
+    table.add_row({std::to_string(trial.key.trial), trial.outcome, trial.failure});
+  }
+  if (failed == 0) return "";
+  std::string text = "\n" + table.to_text();
+  if (failed > kMost) text += "(and " + std::to_string(failed - kMost) + " more)\n";
+  return text;
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
+}
+
+}  // namespace
+
+std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials) {
+  const ResultRow row = result_row(trials);
+  Table table{{{"measure", Alignment::left}, {"value", Alignment::left}}};
+  const auto add = [&table](const char* name, const std::string& value) { table.add_row({name, value}); };
+  const bool single = trials.size() == 1;
+  add("family", row.family);
+  add("method", row.method);
+  add("moving obstacles", row.noise + " noise at " + to_text(row.level) + " Sigma");
+  add("tracking", row.tracking);
+  add("seed", std::to_string(study.seed));
+  add(single ? "trial" : "trials", trials_text(trials));
+  if (single)
+    add("outcome", trials.front().outcome);
+  else
+    add("success", success_text(row));
+  if (!single)
+    add("overtime | collision", std::to_string(row.overtime) + " | " + std::to_string(row.collision));
+  add("robots home", std::to_string(row.arrived_robots) + " of " + std::to_string(row.robots));
+  add("travel time", fixed(row.travel_time_mean, 2) + " s, " + fixed(row.travel_time_ratio, 3) +
+                         " times the obstacle-free optimum");
+  add("path length",
+      fixed(row.path_length_mean, 2) + " m, " + fixed(row.path_length_ratio, 3) + " times the straight line");
+  if (single)
+    add("nearest moving obstacle", fixed(trials.front().dynamic_distance, 2) + " m, clearance " +
+                                       fixed(trials.front().dynamic_clearance, 2) + " m");
+  else
+    add("dynamic distance", "mean " + fixed(row.dynamic_distance_mean, 2) + " m, min " +
+                                fixed(row.dynamic_distance_min, 2) + " m, std " +
+                                fixed(row.dynamic_distance_std, 2) + " m; least clearance " +
+                                fixed(row.dynamic_clearance_min, 2) + " m");
+  add("optimiser calls per robot", fixed(row.optimiser_calls_per_robot, 2));
+  add("planning call", "median " + fixed(row.plan_ms_median, 3) + " ms, p99 " + fixed(row.plan_ms_p99, 3) +
+                           " ms, max " + fixed(row.plan_ms_max, 3) + " ms");
+  add("control tick",
+      "median " + fixed(row.control_us_median, 1) + " us, p99 " + fixed(row.control_us_p99, 1) + " us");
+  add("simulated", fixed(row.sim_seconds, 1) + " s in " + fixed(row.wall_seconds, 2) + " s of computing");
+  return table.to_text() + failures_text(trials);
+}
+
+std::string run_json(const Study& study, const RunFacts& facts) {
+  const nlohmann::ordered_json json{{"program", "spf"},
+                                    {"version", version()},
+                                    {"commit", kCommit},
+                                    {"compiler", compiler()},
+                                    {"date", today()},
+                                    {"command", facts.command},
+                                    {"family", enum_name(study.family)},
+                                    {"method", enum_name(study.method)},
+                                    {"seed", study.seed},
+                                    {"first", facts.first},
+                                    {"trials", facts.trials},
+                                    {"finished", facts.finished},
+                                    {"jobs", facts.jobs},
+                                    {"processors", std::thread::hardware_concurrency()},
+                                    {"wall_seconds", facts.wall_time}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string resolved_scenario(const Study& study) {
+  return "# Every key of the scenario as it was run, by spf " + std::string{version()} + " (commit " +
+         kCommit + ").\n" + to_yaml_text(study);
+}
+
+}  // namespace spf

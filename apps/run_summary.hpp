@@ -1,0 +1,31 @@
+// What `spf run` prints and writes about its trials, beside the trials themselves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/result_row.hpp"
+#include "experiments/scenario_file.hpp"
+#include "experiments/trial_record.hpp"
+
+namespace spf {
+
+/// The table on stdout: outcome, times, distances, computing, and the failed trials with their reasons.
+[[nodiscard]] std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials);
+
+struct RunFacts {
+  std::vector<std::string> command;  ///< words of the command line
+  int first = 0;
+  int trials = 1;  ///< asked for
+  int finished = 0;
+  int jobs = 1;
+  double wall_time = 0.0;  ///< [s]
+};
+
+/// run.json: what made these results.
+[[nodiscard]] std::string run_json(const Study& study, const RunFacts& facts);
+
+/// scenario.yaml: every key written out; running it again gives the same trials.
+[[nodiscard]] std::string resolved_scenario(const Study& study);
+
+}  // namespace spf

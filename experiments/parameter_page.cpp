@@ -1,0 +1,116 @@
+#include "experiments/parameter_page.hpp"
+
+#include <map>
+
+#include "report/table.hpp"
+
+namespace spf {
+namespace {
+
+constexpr SceneFamily kShownFamily = static_cast<SceneFamily>(sim::Family::t2);
+
+/// "agent.tracker" of "agent.tracker.observer.kind": the heading under which a key stands.
+std::string section_of(const std::string& key) {
+  const std::size_t first = key.find('.');
+  if (first == std::string::npos || key.find("[]") != std::string::npos) return "";
+  if (!key.starts_with("agent.")) return key.substr(0, first);
+  const std::size_t second = key.find('.', first + 1);
+  return second == std::string::npos ? "agent" : key.substr(0, second);
+}
+
+Table table_of(const std::vector<ParameterRow>& rows) {
+  Table table{{{"key", Alignment::left},
+               {"default", Alignment::left},
+               {"unit", Alignment::left},
+               {"range", Alignment::left},
+               {"what", Alignment::left}}};
+  for (const ParameterRow& row : rows)
+    table.add_row({"`" + row.key + "`", row.value, row.unit, row.range, row.what});
+  return table;
+}
+
+std::string changes_text(const Study& base, const Study& changed) {
+  std::string text;
+  for (const ParameterRow& row : differences(base, changed)) {
+    if (row.key == "family" || row.key == "method") continue;
+    text += (text.empty() ? "" : ", ") + std::string{"`"} + row.key + ": " + row.value + "`";
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+std::string presets() {
+  const Method standard = Study{}.method;
+  const Study base = default_study(kShownFamily, standard);
+  Table methods{{{"method", Alignment::left}, {"sets", Alignment::left}}};
+  for (const auto& [method, name] : EnumNames<Method>::values)
+    if (method != standard)
+      methods.add_row(
+          {"`" + std::string{name} + "`", changes_text(base, default_study(kShownFamily, method))});
+  Table families{{{"family", Alignment::left}, {"sets", Alignment::left}}};
+  for (const auto& [family, name] : EnumNames<SceneFamily>::values)
+    if (family != kShownFamily && family != SceneFamily::explicit_scene)
+      families.add_row({"`" + std::string{name} + "`", changes_text(base, default_study(family, standard))});
+  return "## What a method sets\n\nA method is a set of parameters of one code path. Besides its generator "
+         "it sets, compared with `" +
+         std::string{enum_name(standard)} + "`:\n\n" + methods.to_markdown() +
+         "\n## What a family sets\n\nCompared with `t2`:\n\n" + families.to_markdown();
+}
+
+}  // namespace
+
+std::vector<ParameterRow> all_parameters() {
+  const Method standard = Study{}.method;
+  std::vector<ParameterRow> rows = parameter_rows(default_study(kShownFamily, standard));
+  // Keys of explicit scenes follow those that come before any group.
+  std::vector<ParameterRow> of_scene;
+  std::map<std::string, bool> known;
+  for (const ParameterRow& row : rows) known[row.key] = true;
+  for (ParameterRow& row : parameter_rows(default_study(SceneFamily::explicit_scene, standard))) {
+    if (row.key == "robots") row.what += " (family: explicit)";
+    if (row.key == "robots" || !known.contains(row.key)) of_scene.push_back(std::move(row));
+  }
+  std::size_t at = 0;
+  while (at < rows.size() && section_of(rows[at].key).empty()) ++at;
+  rows.insert(rows.begin() + static_cast<std::ptrdiff_t>(at), of_scene.begin(), of_scene.end());
+  return rows;
+}
+
+std::vector<ParameterRow> differences(const Study& base, const Study& changed) {
+  std::map<std::string, std::string> values;
+  for (const ParameterRow& row : parameter_rows(base)) values[row.key] = row.value;
+  std::vector<ParameterRow> found;
+  for (const ParameterRow& row : parameter_rows(changed)) {
+    const auto known = values.find(row.key);
+    if (known == values.end() || known->second != row.value) found.push_back(row);
+  }
+  return found;
+}
+
+std::string parameter_page() {
+  std::string page =
+      "# Parameters\n\nEvery key of a scenario file. Made by `spf parameters --markdown`; do not edit.\n\n"
+      "A key that is absent has its default. `--set key=value` sets any of them from the command line. Units "
+      "are SI, "
+      "angles in radians. `what` names the source where there is one: an equation or section of the paper, "
+      "the "
+      "evaluation protocol, or our choice.\n";
+  std::string section = "none yet";
+  std::vector<ParameterRow> rows;
+  const auto flush = [&] {
+    if (rows.empty()) return;
+    page +=
+        "\n## " + (section.empty() ? std::string{"Scene"} : section) + "\n\n" + table_of(rows).to_markdown();
+    rows.clear();
+  };
+  for (const ParameterRow& row : all_parameters()) {
+    const bool of_scene = section_of(row.key).empty() || row.key.starts_with("border.");
+    const std::string next = of_scene ? "" : section_of(row.key);
+    if (next != section) flush();
+    section = next;
+    rows.push_back(row);
+  }
+  flush();
+  return page + "\n" + presets();
+}
+
+}  // namespace spf

@@ -1,0 +1,22 @@
+// docs/parameters.md: every key of a scenario file, and what methods and families change.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/parameter_table.hpp"
+#include "experiments/scenario_file.hpp"
+
+namespace spf {
+
+/// Every key that a scenario file may have, with the defaults of family t2 and the default method; keys of
+/// explicit scenes are among them.
+[[nodiscard]] std::vector<ParameterRow> all_parameters();
+
+/// Rows of `changed` whose value differs from that in `base`, or that `base` does not have.
+[[nodiscard]] std::vector<ParameterRow> differences(const Study& base, const Study& changed);
+
+/// The whole page as Markdown.
+[[nodiscard]] std::string parameter_page();
+
+}  // namespace spf

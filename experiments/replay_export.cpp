@@ -1,0 +1,301 @@
+#include "experiments/replay_export.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "report/table.hpp"
+#include "spf/field/probability_field.hpp"
+
+namespace spf {
+namespace {
+
+ReplayPoint point(const Eigen::Vector2d& position) {
+  return {position.x(), position.y()};
+}
+ReplayPose pose(const Pose2& pose_world) {
+  return {pose_world.position_world.x(), pose_world.position_world.y(), pose_world.heading};
+}
+/// A measured duration; without a clock it reads 0.
+double measured(double duration) {
+  return duration > 0.0 ? duration : kUnknown;
+}
+
+// ---- the place
+// -----------------------------------------------------------------------------------------------------
+
+ReplayBox bounds_of(const sim::Scenario& scenario) {
+  if (scenario.border) return {point(scenario.border->low), point(scenario.border->high)};
+  Eigen::AlignedBox2d bounds;
+  for (const sim::RobotTask& task : scenario.robots)
+    bounds.extend(task.start.position_world).extend(task.goal_world);
+  for (const sim::Box& box : scenario.boxes) bounds.extend(box.low).extend(box.high);
+  for (const sim::Pillar& pillar : scenario.pillars) bounds.extend(pillar.center);
+  for (const ObstacleState& disc : scenario.discs) bounds.extend(disc.position_world);
+  for (const sim::CrowdSample& sample : scenario.crowd) bounds.extend(sample.position_world);
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1.0 + scenario.robot.radius);
+  return {point(bounds.min() - margin), point(bounds.max() + margin)};
+}
+
+/// A thin wall as small boxes along it, since the page draws boxes alone.
+void add_wall(std::vector<ReplayBox>& boxes, const sim::Segment& wall) {
+  constexpr double kThickness = 0.03;  // [m] as drawn
+  const Eigen::Vector2d way = wall.to - wall.from;
+  const bool along_axis = way.x() == 0.0 || way.y() == 0.0;
+  const int pieces = along_axis ? 1 : static_cast<int>(std::clamp(std::ceil(way.norm() / 0.1), 1.0, 500.0));
+  const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kThickness);
+  for (int i = 0; i < pieces; ++i) {
+    const Eigen::Vector2d from = wall.from + way * (static_cast<double>(i) / pieces);
+    const Eigen::Vector2d to = wall.from + way * ((i + 1.0) / pieces);
+    boxes.push_back({point(from.cwiseMin(to) - half), point(from.cwiseMax(to) + half)});
+  }
+}
+
+void describe_place(ReplayData& data, const sim::Scenario& scenario) {
+  data.bounds = bounds_of(scenario);
+  for (const sim::Box& box : scenario.boxes) data.boxes.push_back({point(box.low), point(box.high)});
+  for (const sim::Segment& wall : scenario.walls) add_wall(data.boxes, wall);
+  for (const sim::Pillar& pillar : scenario.pillars)
+    data.discs.push_back({point(pillar.center), pillar.radius});
+}
+
+// ---- what moves
+// ----------------------------------------------------------------------------------------------------
+
+ReplayObstacleFrame obstacle_frame(const ObstacleState& state, const Study& study, double& threshold) {
+  const ProbabilityField field{state, study.robot.radius, study.agent.field};
+  threshold = field.threshold();
+  const FieldEllipse outline = field.ellipse(threshold);
+  return {point(state.position_world),
+          point(state.velocity_world),
+          {point(outline.center_world), outline.half_axes.x(), outline.half_axes.y(), outline.heading}};
+}
+
+/// Everybody who is there in any frame; where somebody is not there the position is unknown, hence not drawn.
+void describe_movers(ReplayData& data, const sim::Recording& recording, const Study& study) {
+  const ReplayObstacleFrame absent{
+      {kUnknown, kUnknown}, {kUnknown, kUnknown}, {{kUnknown, kUnknown}, 0.0, 0.0, 0.0}};
+  std::map<int, ReplayObstacle> movers;
+  double threshold = data.field_threshold;
+  for (std::size_t k = 0; k < recording.frames.size(); ++k)
+    for (const sim::RecordedMover& mover : recording.frames[k].movers) {
+      ReplayObstacle& obstacle = movers[mover.id];
+      if (obstacle.frames.empty()) obstacle.frames.assign(recording.frames.size(), absent);
+      obstacle.id = mover.id;
+      obstacle.radius = mover.state.radius;
+      obstacle.frames[k] = obstacle_frame(mover.state, study, threshold);
+    }
+  data.field_threshold = threshold;
+  for (auto& [id, obstacle] : movers) data.obstacles.push_back(std::move(obstacle));
+}
+
+// ---- robots
+// --------------------------------------------------------------------------------------------------------
+
+ReplayStateKind kind_of(const sim::RecordedRobot& robot) {
+  if (robot.wrecked) return ReplayStateKind::trouble;
+  switch (robot.status.reason) {
+    case StandReason::none:
+      return robot.status.state == PeerState::braking ? ReplayStateKind::braking : ReplayStateKind::moving;
+    case StandReason::arrived:
+      return ReplayStateKind::arrived;
+    case StandReason::no_goal:
+    case StandReason::obstacle_ahead:
+    case StandReason::peer_ahead:
+    case StandReason::paused:
+      return ReplayStateKind::waiting;
+    case StandReason::no_path:
+    case StandReason::planner_failed:
+    case StandReason::stale_pose:
+    case StandReason::stale_scan:
+    case StandReason::lost:
+      return ReplayStateKind::trouble;
+  }
+  return ReplayStateKind::trouble;
+}
+
+std::string state_text(const sim::RecordedRobot& robot) {
+  if (robot.wrecked) return "wrecked";
+  std::string text = to_string(robot.status.reason);
+  if (robot.status.culprit >= 0) text += " " + std::to_string(robot.status.culprit);
+  if (robot.status.reason != StandReason::none && robot.status.state == PeerState::braking)
+    text += " (braking)";
+  return text;
+}
+
+ReplayClearance clearance(const sim::RecordedClearance& recorded) {
+  return {std::isfinite(recorded.distance) ? recorded.distance : kUnknown, recorded.other};
+}
+
+ReplayRobotFrame robot_frame(ReplayData& data, const sim::RecordedRobot& robot) {
+  ReplayRobotFrame frame;
+  frame.pose = pose(robot.pose);
+  if (robot.estimate.valid) {
+    frame.estimate = pose(robot.estimate.pose_world);
+    const double variance = robot.estimate.position_sigma * robot.estimate.position_sigma;
+    frame.estimate_covariance = {variance, 0.0, variance};
+  }
+  frame.state = state_index(data, state_text(robot), kind_of(robot));
+  for (int wheel = 0; wheel < 3; ++wheel)
+    frame.wheel_speeds[static_cast<std::size_t>(wheel)] = robot.wheel_speeds[wheel];
+  frame.to_obstacle = clearance(robot.to_mover);
+  frame.to_peer = clearance(robot.to_peer);
+  frame.to_static = clearance(robot.to_static);
+  frame.control_time = measured(1e-6 * robot.control_us);
+  for (const sim::RecordedTrack& track : robot.tracks)
+    frame.tracks.push_back(
+        {track.id, track.state.position_world.x(), track.state.position_world.y(), track.sigma});
+  return frame;
+}
+
+std::vector<ReplayTimedPoint> timed_points(const std::vector<sim::RecordedPoint>& points) {
+  std::vector<ReplayTimedPoint> timed;
+  timed.reserve(points.size());
+  for (const sim::RecordedPoint& recorded : points)
+    timed.push_back({recorded.time, recorded.position_world.x(), recorded.position_world.y()});
+  return timed;
+}
+
+const char* label_of(Candidate::Kind kind) {
+  switch (kind) {
+    case Candidate::Kind::previous:
+      return "the plan before";
+    case Candidate::Kind::side_a:
+      return "this side";
+    case Candidate::Kind::side_b:
+      return "the other side";
+    case Candidate::Kind::manoeuvre:
+      return "manoeuvre";
+    case Candidate::Kind::optimised:
+      return "optimised";
+    case Candidate::Kind::brake:
+      return "brake";
+  }
+  return "?";
+}
+
+ReplayPlan plan_of(const sim::RecordedPlan& recorded) {
+  ReplayPlan plan;
+  plan.time = recorded.time;
+  plan.points = timed_points(recorded.points);
+  plan.outcome = to_string(recorded.outcome);
+  plan.planning_time = measured(1e-3 * recorded.plan_ms);
+  plan.evaluations = recorded.stats.evaluations + recorded.stats.manoeuvres;
+  for (const sim::RecordedCandidate& other : recorded.candidates) {
+    ReplayCandidate candidate;
+    candidate.label = label_of(other.kind);
+    for (const sim::RecordedPoint& sample : other.points)
+      candidate.points.push_back(point(sample.position_world));
+    candidate.chosen = other.chosen;
+    candidate.cost = other.cost;
+    candidate.risk = other.risk;
+    plan.candidates.push_back(std::move(candidate));
+  }
+  return plan;
+}
+
+ReplayCellUpdate cells_of(const sim::RecordedCells& recorded) {
+  ReplayCellUpdate update;
+  update.time = recorded.time;
+  for (const Eigen::Vector2i& cell : recorded.added) update.added.push_back({cell.x(), cell.y()});
+  for (const Eigen::Vector2i& cell : recorded.removed) update.removed.push_back({cell.x(), cell.y()});
+  return update;
+}
+
+void describe_robots(ReplayData& data, const sim::Recording& recording) {
+  const sim::Scenario& scenario = recording.scenario;
+  const Eigen::Vector2d half_cell = Eigen::Vector2d::Constant(0.5 * recording.map_frame.resolution);
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    ReplayRobot robot;
+    robot.id = static_cast<int>(i);
+    robot.radius = scenario.robot.radius;
+    robot.goal = point(scenario.robots[i].goal_world);
+    robot.wheel_speed_limit = scenario.robot.max_wheel_speed;
+    robot.sensing_range = scenario.simulation.sensing.range;
+    robot.cell_size = recording.map_frame.resolution;
+    robot.cell_origin = point(recording.map_frame.origin_world - half_cell);  // a cell is centred on its node
+    for (const sim::RecordedFrame& frame : recording.frames)
+      robot.frames.push_back(robot_frame(data, frame.robots[i]));
+    data.robots.push_back(std::move(robot));
+  }
+  for (const sim::RecordedPlan& plan : recording.plans)
+    data.robots[static_cast<std::size_t>(plan.robot)].plans.push_back(plan_of(plan));
+  for (const sim::RecordedCells& cells : recording.cells)
+    data.robots[static_cast<std::size_t>(cells.robot)].cells.push_back(cells_of(cells));
+}
+
+// ---- what happened
+// -------------------------------------------------------------------------------------------------
+
+ReplayEvent event_of(const sim::RecordedEvent& recorded) {
+  ReplayEvent event;
+  event.time = recorded.time;
+  event.robot = recorded.robot;
+  event.text = recorded.text;
+  event.position = point(recorded.position_world);
+  switch (recorded.kind) {
+    case sim::RecordedEvent::Kind::contact:
+      event.kind = ReplayEventKind::contact;
+      event.other = recorded.text;
+      event.text = "touched " + recorded.text;
+      break;
+    case sim::RecordedEvent::Kind::hit_while_standing:
+      event.kind = ReplayEventKind::note;
+      event.text = "was run into while standing, by " + recorded.text;
+      break;
+    case sim::RecordedEvent::Kind::stop:
+      event.kind = ReplayEventKind::stop;
+      break;
+    case sim::RecordedEvent::Kind::go:
+      event.kind = ReplayEventKind::note;
+      break;
+    case sim::RecordedEvent::Kind::arrival:
+      event.kind = ReplayEventKind::arrival;
+      break;
+  }
+  return event;
+}
+
+void describe_outcome(ReplayData& data, const TrialRecord& record) {
+  const TrialKey& key = record.key;
+  data.title = key.family + ", " + key.method + ", trial " + std::to_string(key.trial);
+  data.family = key.family;
+  data.method = key.method;
+  data.noise = key.noise;
+  data.tracking = key.tracking;
+  data.level = key.level;
+  data.seed = key.seed;
+  data.trial = key.trial;
+  data.outcome = record.outcome;
+  data.success = record.outcome == "success";
+  int arrived = 0;
+  for (const RobotRecord& robot : record.robots) arrived += robot.arrived ? 1 : 0;
+  data.summary = {{"robots home", std::to_string(arrived) + " of " + std::to_string(record.robots.size())},
+                  {"simulated", fixed(record.sim_time, 1) + " s"},
+                  {"nearest moving obstacle", fixed(record.dynamic_clearance, 2) + " m clear"},
+                  {"planning, median", fixed(1e3 * record.plan_time.percentile(0.5), 3) + " ms"},
+                  {"control, median", fixed(1e6 * record.control_time.percentile(0.5), 1) + " us"}};
+  if (!record.failure.empty()) data.summary.insert(data.summary.begin(), {"failed", record.failure});
+}
+
+}  // namespace
+
+ReplayData replay_data(const Study& study, const RecordedTrial& trial) {
+  const sim::Recording& recording = *trial.recording;
+  ReplayData data;
+  data.states.clear();
+  data.frame_interval = recording.frame_interval;
+  describe_outcome(data, trial.record);
+  describe_place(data, recording.scenario);
+  describe_movers(data, recording, study);
+  describe_robots(data, recording);
+  for (const sim::RecordedEvent& event : recording.events) data.events.push_back(event_of(event));
+  std::stable_sort(data.events.begin(), data.events.end(),
+                   [](const ReplayEvent& a, const ReplayEvent& b) { return a.time < b.time; });
+  return data;
+}
+
+}  // namespace spf

@@ -1,0 +1,125 @@
+#include "experiments/results_folder.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace spf {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* what, int error) {
+  throw OutputError{path.string() + ": " + what + ": " + std::strerror(error)};
+}
+
+/// 0 when everything was written, else the reason.
+int write_all(int descriptor, const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t written = ::write(descriptor, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    if (written == 0) return ENOSPC;
+    done += static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+bool is_ours(const std::string& name) {
+  for (const char* ours :
+       {"trials.jsonl", "summary.csv", "summary.jsonl", "scenario.yaml", "run.json", "replay.html"})
+    if (name == ours) return true;
+  const std::string prefix = "replay_trial_", suffix = ".html";
+  if (name.size() <= prefix.size() + suffix.size() || !name.starts_with(prefix) || !name.ends_with(suffix))
+    return false;
+  const std::string number = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+  return number.find_first_not_of("0123456789") == std::string::npos;
+}
+
+}  // namespace
+
+namespace {
+
+/// Terminals, pipes and the like are written to, not replaced.
+bool is_stream(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  return std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status);
+}
+
+void write_stream(const std::filesystem::path& path, const std::string& text) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, "cannot be written", errno);
+  const int error = write_all(descriptor, text);
+  ::close(descriptor);
+  if (error != 0) fail(path, "cannot be written", error);
+}
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& path, const std::string& text) {
+  if (is_stream(path)) return write_stream(path, text);
+  const std::string temporary = path.string() + "." + std::to_string(::getpid()) + ".tmp";
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail(path, "cannot be written", errno);
+  int error = write_all(descriptor, text);
+  if (error == 0 && ::fsync(descriptor) != 0 && errno != EINVAL)
+    error = errno;  // EINVAL: not that kind of file system
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  ::unlink(temporary.c_str());
+  fail(path, "cannot be written", error);
+}
+
+void require_writable(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw OutputError{path.string() + ": is a folder, not a file"};
+  const std::filesystem::path probe = path.string() + "." + std::to_string(::getpid()) + ".probe.tmp";
+  const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail(path, "cannot be written", errno);
+  ::close(descriptor);
+  ::unlink(probe.c_str());
+}
+
+LineFile::LineFile(const std::filesystem::path& path)
+    : path_{path},
+      descriptor_{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644)} {
+  if (descriptor_ < 0) fail(path_, "cannot be written", errno);
+}
+
+LineFile::~LineFile() {
+  ::close(descriptor_);
+}
+
+void LineFile::append(const std::string& line) {
+  const off_t before = ::lseek(descriptor_, 0, SEEK_END);
+  const int error = write_all(descriptor_, line + "\n");
+  if (error == 0) return;
+  if (before >= 0 && ::ftruncate(descriptor_, before) != 0) fail(path_, "ends with half a line", errno);
+  fail(path_, "cannot be written", error);
+}
+
+ResultsFolder::ResultsFolder(std::filesystem::path folder) : folder_{std::move(folder)} {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw OutputError{folder_.string() + ": cannot make this folder: " + error.message()};
+  if (!std::filesystem::is_directory(folder_)) throw OutputError{folder_.string() + ": is no folder"};
+  for (std::filesystem::directory_iterator entry{folder_, error}, end; !error && entry != end;
+       entry.increment(error))
+    if (is_ours(entry->path().filename().string())) std::filesystem::remove(entry->path(), error);
+  if (error)
+    throw OutputError{folder_.string() + ": cannot be cleared of earlier results: " + error.message()};
+  require_writable(folder_ / "trials.jsonl");  // better now than after an hour of simulation
+}
+
+std::string replay_name(int trial) {
+  return "replay_trial_" + std::to_string(trial) + ".html";
+}
+
+}  // namespace spf
