@@ -79,6 +79,7 @@ struct RobotAgent::Implementation {
   [[nodiscard]] StandReason forced_stop(double time) const;
   [[nodiscard]] PlanRequest make_request(double time);
   void refresh_guide(double time);
+  [[nodiscard]] bool guide_way_clear(const Eigen::Vector2d& here);
   void make_plan(double time);
   void commit(const PlanRequest& request, bool brakes);
   void brake(double time);
@@ -119,6 +120,8 @@ struct RobotAgent::Implementation {
   double next_control_time;
   double next_message_time;
   double next_guide_time;
+  double guide_time = -1e9;  // [s] of the last flood
+  std::vector<Eigen::Vector2d> guide_way;
   double last_pose_time;
   double last_observation_time;
   double tracking_error_squared = 0.0;  // [m^2] smoothed, per axis
@@ -238,8 +241,23 @@ void RobotAgent::Implementation::refresh_guide(double time) {
   if (!guide.outdated(map, *goal, here)) return;
   const bool same_goal = guide.ready() && guide.goal_asked() == *goal;
   if (same_goal && time < next_guide_time - kTimeTolerance) return;
+  // What was newly sensed off the way makes no other way shorter: only a way that is blocked cannot wait.
+  const bool can_wait = same_goal && time < guide_time + parameters.team.guide_idle_period - kTimeTolerance;
+  if (can_wait && guide_way_clear(here)) return;
   guide.update(map, *goal, here);
+  guide_time = time;
   next_guide_time = time + parameters.team.guide_period;
+}
+
+bool RobotAgent::Implementation::guide_way_clear(const Eigen::Vector2d& here) {
+  if (!guide.ready() || guide.outcome() == GuideOutcome::unreachable) return false;
+  guide.way(here, guide_way);
+  const double clearance =
+      guide.parameters().clearance - 0.5 * map.frame().resolution;  // it grazes its corners
+  for (std::size_t i = 1; i < guide_way.size(); ++i) {
+    if (!map.segment_clear(guide_way[i - 1], guide_way[i], clearance)) return false;
+  }
+  return true;
 }
 
 std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double time) {

@@ -18,6 +18,7 @@ struct TeamParameters {
   double retry_first = 0.2;        ///< [s] back-off after a failed plan
   double retry_longest = 1.6;      ///< [s] longest back-off
   double guide_period = 0.5;       ///< [s] the guide path follows a changing map at most this often
+  double guide_idle_period = 2.0;  ///< [s] and, while its way stays clear, at most this often
   bool retreat = true;             ///< step aside when standing would be run into and no plan is found
   bool keep_candidates = false;    ///< keep every candidate of a plan, for display (allocates)
 
@@ -43,6 +44,8 @@ struct TeamParameters {
           "longest wait after failed plans (it doubles each time)");
     visit("guide_period", self.guide_period, "s", Range{0.0, 60.0},
           "the guide path follows a changing map at most this often");
+    visit("guide_idle_period", self.guide_idle_period, "s", Range{0.0, 60.0},
+          "and, while its way stays clear, at most this often");
     visit("retreat", self.retreat, "step aside when standing would be run into and no plan is found");
     visit("keep_candidates", self.keep_candidates, "keep every candidate of a plan, for display");
   }
