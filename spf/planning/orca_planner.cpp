@@ -318,7 +318,7 @@ void OrcaPlanner::collect_neighbours(const PlanRequest& request) {
     const Eigen::Vector2d place =
         track.state.position_world + (time - track.time) * track.state.velocity_world;
     neighbour.encounter = {place - request.head.position_world, request.head.velocity_world,
-                           track.state.velocity_world, 0.0, 1.0};
+                           track.state.velocity_world, 0.0, parameters_.obstacle_share};
     neighbour.way_out = Eigen::Vector2d::UnitY();
     neighbour.id = track.id;
     collect(neighbour, track.state.radius);

@@ -404,6 +404,22 @@ TEST_F(OrcaPlannerTest, LeavesHalfToAPeerThatMovesAndNothingToOneThatStands) {
   EXPECT_GT(sideways[1], 1.5 * sideways[0]);
 }
 
+TEST_F(OrcaPlannerTest, TakesItsShareOfAvoidingAnObstacle) {
+  place_obstacle({2.0, -0.05}, {0.0, 0.0});
+  std::array<double, 2> sideways{};
+  for (const int full : {0, 1}) {
+    OrcaParameters parameters = published();
+    parameters.obstacle_share = full == 1 ? 1.0 : 0.5;
+    Robot robot_a = robot_at({0.0, 0.0}, {6.0, 0.0}, parameters);
+    PlanRequest request = request_of(robot_a, 0, 0.0);
+    request.head.velocity_world = {1.0, 0.0};
+    robot_a.planner.plan(request, robot_a.guide, false, robot_a.result);
+    sideways[static_cast<std::size_t>(full)] = robot_a.result.trajectory.state(0.05).velocity_world.y();
+  }
+  EXPECT_GT(sideways[0], 0.01);
+  EXPECT_GT(sideways[1], 1.5 * sideways[0]);
+}
+
 TEST_F(OrcaPlannerTest, CoincidentRobotsPartInOppositeDirections) {
   Robot a = robot_at({0.0, 0.0}, {3.0, 0.0}, published());
   Robot b = robot_at({0.0, 0.0}, {3.0, 0.0}, published());
