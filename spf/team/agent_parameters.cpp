@@ -9,7 +9,9 @@ AgentParameters with_method(AgentParameters parameters, Method method) {
   }
   parameters.generator = Generator::field;
 
-  // The paper's own presets (Section "Experimental Setup"): its observer with its gains, its self-sampling.
+  // The paper's own presets (Section "Experimental Setup"): its field, its observer with its gains, its
+  // self-sampling.
+  parameters.field.directional = true;
   parameters.tracker.observer.kind = ObserverKind::eso;
   parameters.tracker.reference.self_sampling = true;
   parameters.planner.dynamic_model = DynamicModel::probability_field;

@@ -16,7 +16,11 @@ constexpr double kTimeTolerance = 1e-9;  // [s]
 
 FieldReplanning::FieldReplanning(const PlannerParameters& planner, const RobotParameters& robot,
                                  const FieldParameters& field, const TeamParameters& team)
-    : robot_{robot}, team_{team}, planner_{planner, robot, field}, check_{planner, robot, field} {}
+    : robot_{robot},
+      team_{team},
+      horizon_{planner.horizon},
+      planner_{planner, robot, field},
+      check_{planner, robot, field} {}
 
 void FieldReplanning::reset() {
   last_plan_time_ = -1e9;
@@ -69,7 +73,30 @@ ReplanDecision FieldReplanning::decide(const PlanRequest& request, const GuidePa
   // 3. No plan: wait a little longer each time before the next attempt.
   back_off_ = back_off_ > 0.0 ? std::min(2.0 * back_off_, team_.retry_longest) : team_.retry_first;
   retry_time_ = request.time + back_off_;
+  name_blocker(request, guide, result);
   return fail(request, threat, braking, result);
+}
+
+void FieldReplanning::name_blocker(const PlanRequest& request, const GuidePath& guide,
+                                   PlanResult& result) const {
+  const bool named = result.blocking_track >= 0 || result.blocking_peer >= 0;
+  if (named || !guide.ready() || result.outcome == PlanOutcome::no_path) return;
+  const double step = 0.5 * robot_.radius;
+  for (double ahead = 0.0; ahead <= horizon_; ahead += step) {
+    const Eigen::Vector2d place = guide.descend(request.head.position_world, ahead);
+    for (const MovingDisc& disc : check_.discs()) {
+      DiscCursor cursor{disc};
+      cursor.move_to(request.time);
+      if ((place - cursor.position()).norm() > disc.radius) continue;
+      (disc.is_peer ? result.blocking_peer : result.blocking_track) = disc.id;
+      return;
+    }
+    for (const DangerRegion& region : check_.regions()) {
+      if (region.field.clearance(place, region.threshold) > 0.0) continue;
+      result.blocking_track = region.id;
+      return;
+    }
+  }
 }
 
 ReplanDecision FieldReplanning::fail(const PlanRequest& request, const Threat& threat, bool braking,

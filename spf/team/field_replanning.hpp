@@ -34,10 +34,13 @@ class FieldReplanning {
   };
   [[nodiscard]] Threat threat_to(const Trajectory& trajectory, const PlanRequest& request) const;
   [[nodiscard]] bool plan_due(const PlanRequest& request, const Threat& threat, bool braking) const;
+  /// Names the first moving thing on the guide's way when the planner ended without a name.
+  void name_blocker(const PlanRequest& request, const GuidePath& guide, PlanResult& result) const;
   ReplanDecision fail(const PlanRequest& request, const Threat& threat, bool braking, PlanResult& result);
 
   RobotParameters robot_;
   TeamParameters team_;
+  double horizon_;  // [m] of the planner
   FieldPlanner planner_;
   ClearanceModel check_;          // against all peers
   double last_plan_time_ = -1e9;  // [s] of the last success

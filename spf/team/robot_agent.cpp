@@ -83,7 +83,7 @@ struct RobotAgent::Implementation {
   void make_plan(double time);
   void commit(const PlanRequest& request, bool brakes);
   void brake(double time);
-  void explain_standing();
+  void explain_standing(double time);
   [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request) const;
   void update_status(double time);
   [[nodiscard]] double own_sigma(double time) const;
@@ -357,11 +357,17 @@ void RobotAgent::Implementation::update_status(double time) {
     return;
   }
   status.state = PeerState::stopped;
-  if (stop_reason == StandReason::none) explain_standing();
+  if (stop_reason == StandReason::none) explain_standing(time);
 }
 
-void RobotAgent::Implementation::explain_standing() {
-  if (guide.outcome() == GuideOutcome::unreachable || guide.outcome() == GuideOutcome::no_free_goal) {
+void RobotAgent::Implementation::explain_standing(double time) {
+  const bool no_way =
+      guide.outcome() == GuideOutcome::unreachable || guide.outcome() == GuideOutcome::no_free_goal;
+  // As near to a goal on blocked ground as the way leads.
+  const bool at_substitute =
+      guide.outcome() == GuideOutcome::goal_moved &&
+      (committed.position(time) - guide.goal_used()).norm() < parameters.team.goal_tolerance;
+  if (no_way || at_substitute) {
     status.reason = StandReason::no_path;
   } else if (result.blocking_track >= 0) {
     status.reason = StandReason::obstacle_ahead;
@@ -376,7 +382,8 @@ void RobotAgent::Implementation::explain_standing() {
 
 std::optional<TrajectoryMessage> RobotAgent::Implementation::message(double time) {
   const bool changed = committed.start_time() != told_start_time || status.state != told_state;
-  if (!changed && time < next_message_time - kTimeTolerance) return std::nullopt;
+  const bool due = next_plan_time > next_message_time + kTimeTolerance;  // the next chance would be too late
+  if (!changed && !due) return std::nullopt;
   next_message_time = time + parameters.team.message_period;
   told_start_time = committed.start_time();
   told_state = status.state;
