@@ -69,6 +69,8 @@ std::vector<ParameterRow> all_parameters() {
     if (row.key == "robots") row.what += " (family: explicit)";
     if (row.key == "robots" || !known.contains(row.key)) of_scene.push_back(std::move(row));
   }
+  for (ParameterRow& row : of_scene)
+    if (row.value == to_text(kUnsetPoint)) row.value = "required";
   std::size_t at = 0;
   while (at < rows.size() && section_of(rows[at].key).empty()) ++at;
   rows.insert(rows.begin() + static_cast<std::ptrdiff_t>(at), of_scene.begin(), of_scene.end());

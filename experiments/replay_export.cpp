@@ -251,9 +251,11 @@ ReplayEvent event_of(const sim::RecordedEvent& recorded) {
       break;
     case sim::RecordedEvent::Kind::go:
       event.kind = ReplayEventKind::note;
+      event.text = "goes on";
       break;
     case sim::RecordedEvent::Kind::arrival:
       event.kind = ReplayEventKind::arrival;
+      event.text = "at its goal";
       break;
   }
   return event;

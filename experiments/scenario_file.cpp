@@ -144,15 +144,24 @@ void check_explicit(const YamlNode& root, const Study& study, InputProblems& pro
   }
 }
 
-/// Checks that a family finds a scene for the first trial.
+/// Checks that a family draws a first trial that can run. Reported as one problem, where the file sizes the
+/// family.
 void check_drawn(const YamlNode& root, const Study& study, InputProblems& problems) {
-  const YamlNode* family = root.find("family");
-  const SourcePlace& place = family == nullptr ? root.place : family->place;
+  const char* key = root.find("robots") != nullptr ? "robots" : "family";
+  const YamlNode* node = root.find(key);
+  const auto refuse = [&](const std::string& why) {
+    problems.add(
+        node == nullptr ? root.place : node->place,
+        std::string{key} + (node == nullptr ? "" : " = " + shown(*node)) + " cannot be drawn: " + why);
+  };
   try {
-    for (const sim::ScenarioProblem& problem : sim::problems_of(make_trial(study, 0)))
-      problems.add(place, problem.where + " " + problem.what);
+    const std::vector<sim::ScenarioProblem> found = sim::problems_of(make_trial(study, 0));
+    if (found.empty()) return;
+    const std::string others =
+        found.size() == 1 ? "" : " (and " + std::to_string(found.size() - 1) + " more)";
+    refuse(found.front().where + " " + found.front().what + others);
   } catch (const std::exception& error) {
-    problems.add(place, error.what());
+    refuse(error.what());
   }
 }
 
