@@ -99,6 +99,7 @@ class Run {
     request.trials = *options_.trials;
     request.jobs = threads(options_.jobs);
     request.clock = steady_seconds;
+    request.stop = interrupted;
     request.progress = [&](const TrialRecord& record, int done) {
       good += record.outcome == "success" ? 1 : 0;
       if (lines) lines->append(to_json_line(record));

@@ -52,6 +52,18 @@ std::string overtime_text(const sim::TrialResult& result) {
   return text.empty() ? "stopped before the end" : text;
 }
 
+/// Ends trials under way from inside; run_study alone throws and catches it.
+struct Stopped {};
+
+/// A clock that ends the trial which reads it, once told to stop: the simulator reads it at every step.
+std::function<double()> stopping_clock(const StudyRequest& request) {
+  if (!request.clock || !request.stop) return request.clock;
+  return [&request] {
+    if (request.stop()) throw Stopped{};
+    return request.clock();
+  };
+}
+
 RobotRecord robot_record(const sim::RobotResult& robot) {
   RobotRecord record;
   record.arrived = robot.arrived;
@@ -109,12 +121,16 @@ std::vector<TrialRecord> run_study(const Study& study, const StudyRequest& reque
   trials.first = request.first;
   trials.count = request.trials;
   trials.jobs = request.jobs;
-  trials.clock = request.clock;
+  trials.clock = stopping_clock(request);
   trials.progress = [&](const sim::TrialResult& result, int done) {
     records.push_back(record_of(study, result));
     return !request.progress || request.progress(records.back(), done);
   };
-  static_cast<void>(sim::run_trials(trials));
+  try {
+    static_cast<void>(sim::run_trials(trials));
+  } catch (const Stopped&) {
+    // What has ended is in `records`.
+  }
   std::sort(records.begin(), records.end(),
             [](const TrialRecord& a, const TrialRecord& b) { return a.key.trial < b.key.trial; });
   return records;

@@ -21,6 +21,9 @@ struct StudyRequest {
   int trials = 1;
   int jobs = 1;                   ///< threads; 0 = as many as the machine has
   std::function<double()> clock;  ///< [s] steady, callable from any thread; none: nothing is timed
+  /// Asked often, on any thread, when there is a clock; true ends the run at once and drops the trials under
+  /// way.
+  std::function<bool()> stop;
   /// Called after each trial, by one thread at a time, in the order in which trials end; false ends the run.
   std::function<bool(const TrialRecord&, int done)> progress;
 };

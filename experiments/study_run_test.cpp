@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
+#include <atomic>
 
 namespace spf {
 namespace {
@@ -69,6 +69,23 @@ TEST(StudyRun, StopsWhenToldTo) {
   const RecordedTrial stopped = run_single(small_study(), single);
   EXPECT_TRUE(stopped.stopped);
   EXPECT_LT(stopped.record.sim_time, 1.5);
+}
+
+TEST(StudyRunThreads, DropsTrialsUnderWayWhenToldToStop) {
+  std::atomic<bool> stop{false};
+  StudyRequest request;
+  request.trials = 100;
+  request.jobs = 3;
+  request.clock = [] { return 0.0; };
+  request.stop = [&stop] { return stop.load(); };
+  int ended = 0;
+  request.progress = [&](const TrialRecord&, int) {
+    if (++ended == 2) stop = true;
+    return true;
+  };
+  const std::vector<TrialRecord> kept = run_study(small_study(), request);
+  EXPECT_EQ(kept.size(), static_cast<std::size_t>(ended));
+  EXPECT_LT(ended, 6);  // the second, and at most what the other threads were just ending
 }
 
 TEST(StudyRun, TimesOnlyWithAClock) {
