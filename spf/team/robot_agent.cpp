@@ -21,6 +21,15 @@ namespace {
 constexpr double kTimeTolerance = 1e-9;  // [s] ticks that fall on a due time within rounding
 constexpr double kStandingSpeed = 0.02;  // [m/s]
 constexpr double kArrivedSpeed = 0.1;    // [m/s]
+constexpr double kClockError = 0.1;      // [s] by which a sensor's clock may be ahead
+constexpr double kLongestNap = 10.0;     // [s] without a step, after which the schedule starts afresh
+
+/// The next time of a periodic duty that is due by now.
+double next_due(double due, double period, double now) {
+  if (now - due > kLongestNap) due = now;
+  while (due <= now + kTimeTolerance) due += period;
+  return due;
+}
 
 GuidePathParameters guide_parameters(const AgentParameters& parameters) {
   GuidePathParameters guide = parameters.guide;
@@ -70,9 +79,9 @@ struct RobotAgent::Implementation {
 
   // Believing.
   void receive(double time, const AgentInput& input);
-  void receive_observation(const Observation& observation);
+  void receive_observation(double time, const Observation& observation);
   void refresh_beliefs(double time);
-  [[nodiscard]] std::vector<IgnoredDisc> explained_discs(double time) const;
+  void explain_discs(double time);
 
   // Planning.
   std::optional<TrajectoryMessage> plan(double time);
@@ -102,6 +111,7 @@ struct RobotAgent::Implementation {
 
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
+  std::vector<IgnoredDisc> explained;  // of the observation under way, kept for its memory
   Trajectory committed;
   PlanResult result;
   AgentStatus status;
@@ -154,36 +164,42 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
 
 void RobotAgent::Implementation::receive(double time, const AgentInput& input) {
   for (const PoseMeasurement& measurement : input.poses) {
+    if (measurement.time > time + kClockError) continue;  // it would make all later ones late
     const MeasurementOutcome outcome = tracker.observe(measurement.time, measurement.pose_world);
     if (outcome != MeasurementOutcome::invalid) last_pose_time = std::max(last_pose_time, measurement.time);
   }
   for (const TrajectoryMessage& received : input.messages) peer_table.receive(received, time);
-  if (input.observation) receive_observation(*input.observation);
+  if (input.observation) receive_observation(time, *input.observation);
 }
 
-void RobotAgent::Implementation::receive_observation(const Observation& observation) {
+void RobotAgent::Implementation::receive_observation(double time, const Observation& observation) {
+  // What is too old to rely on, or not of this time at all, tells nothing about the present.
+  const bool timely = observation.time >= time - parameters.team.stale_time - kTimeTolerance &&
+                      observation.time <= time + kClockError;
+  if (!timely) return;
   obstacle_tracker.update(observation);
   last_observation_time = std::max(last_observation_time, observation.time);
   const StateEstimate believed = tracker.estimate(observation.time);
   if (observation.scan && believed.valid) {
-    map.integrate(*observation.scan, believed.pose_world, explained_discs(observation.time));
+    explain_discs(observation.time);
+    map.integrate(*observation.scan, believed.pose_world, explained);
   }
 }
 
-std::vector<IgnoredDisc> RobotAgent::Implementation::explained_discs(double time) const {
+void RobotAgent::Implementation::explain_discs(double time) {
   // Returns from what is tracked or has told its place are not static; a little more than the disc itself,
   // since both places are uncertain.
   constexpr double kSlack = 0.15;  // [m]
-  std::vector<IgnoredDisc> discs;
+  explained.clear();
   for (const ObstacleTrack& track : obstacle_tracker.tracks()) {
     const Eigen::Vector2d now = track.state.position_world + (time - track.time) * track.state.velocity_world;
-    discs.push_back(
+    explained.push_back(
         {now, track.state.radius + kSlack + 2.0 * track.position_sigma(std::max(0.0, time - track.time))});
   }
   for (const Peer& peer : peers) {
-    discs.push_back({peer.position(time), peer.radius + peer.growth + kSlack + 2.0 * peer.position_sigma});
+    explained.push_back(
+        {peer.position(time), peer.radius + peer.growth + kSlack + 2.0 * peer.position_sigma});
   }
-  return discs;
 }
 
 void RobotAgent::Implementation::refresh_beliefs(double time) {
@@ -261,7 +277,7 @@ bool RobotAgent::Implementation::guide_way_clear(const Eigen::Vector2d& here) {
 }
 
 std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double time) {
-  while (next_plan_time <= time + kTimeTolerance) next_plan_time += parameters.team.plan_period;
+  next_plan_time = next_due(next_plan_time, parameters.team.plan_period, time);
   // 1. What is believed now.
   refresh_beliefs(time);
   // 2. Reasons to stand that no plan can mend.
@@ -452,7 +468,7 @@ std::optional<TrajectoryMessage> RobotAgent::plan(double time) {
 Eigen::Vector3d RobotAgent::track(double time) {
   Implementation& self = *implementation_;
   const double period = self.parameters.tracker.control_period;
-  while (self.next_control_time <= time + kTimeTolerance) self.next_control_time += period;
+  self.next_control_time = next_due(self.next_control_time, period, time);
   self.wheel_speeds = self.tracker.step(time, self.committed).wheel_speeds;
   return self.wheel_speeds;
 }
