@@ -9,11 +9,11 @@
 #include <memory>
 #include <vector>
 
-#include "spf/tracking/mpc_instances.hpp"
 #include "spf/tracking/observer.hpp"
+#include "spf/tracking/test/mpc_instances.hpp"
 #include "spf/tracking/tracker.hpp"
 #ifdef SPF_HAVE_IPOPT
-#include "spf/tracking/mpc_ipopt_oracle.hpp"
+#include "spf/tracking/test/mpc_ipopt_oracle.hpp"
 #endif
 
 namespace spf {

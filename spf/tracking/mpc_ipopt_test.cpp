@@ -15,8 +15,8 @@ TEST(MpcAgainstIpopt, IsComparedWhereIpoptIsInstalled) {
 #include <cmath>
 #include <iostream>
 
-#include "spf/tracking/mpc_instances.hpp"
-#include "spf/tracking/mpc_ipopt_oracle.hpp"
+#include "spf/tracking/test/mpc_instances.hpp"
+#include "spf/tracking/test/mpc_ipopt_oracle.hpp"
 
 namespace spf {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "spf/math/angles.hpp"
 #include "spf/testing/allocation_guard.hpp"
-#include "spf/tracking/mpc_instances.hpp"
+#include "spf/tracking/test/mpc_instances.hpp"
 
 namespace spf {
 namespace {
