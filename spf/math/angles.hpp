@@ -14,6 +14,8 @@ inline constexpr double kPi = 3.14159265358979323846;
 }
 
 /// The shortest turn from `from` to `to`, in (-pi, pi].
-[[nodiscard]] inline double angle_difference(double to, double from) { return wrap_angle(to - from); }
+[[nodiscard]] inline double angle_difference(double to, double from) {
+  return wrap_angle(to - from);
+}
 
 }  // namespace spf

@@ -18,7 +18,8 @@ struct Range {
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
 };
 
-/// Names of an enumeration: specialise with `static constexpr std::array<std::pair<E, const char*>, N> values`.
+/// Names of an enumeration: specialise with `static constexpr std::array<std::pair<E, const char*>, N>
+/// values`.
 template <class E>
 struct EnumNames;
 
@@ -38,7 +39,8 @@ template <class E>
 class ProblemCollector {
  public:
   template <class Number>
-  void operator()(const char* name, const Number& value, const char* unit, Range range, const char* /*what*/) {
+  void operator()(const char* name, const Number& value, const char* unit, Range range,
+                  const char* /*what*/) {
     if (range.contains(static_cast<double>(value))) return;
     std::ostringstream sentence;
     sentence << prefix_ << name << " = " << value << " [" << unit << "] must lie in [" << range.low << ", "

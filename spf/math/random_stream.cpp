@@ -15,7 +15,9 @@ std::uint64_t RandomStream::bits() {
   return z ^ (z >> 31U);
 }
 
-double RandomStream::uniform() { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
+double RandomStream::uniform() {
+  return static_cast<double>(bits() >> 11U) * 0x1.0p-53;
+}
 
 double RandomStream::normal() {
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));

@@ -33,8 +33,8 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
   if (score.time > enough) return score;
 
-  // Static surfaces: the chance that the own position error reaches one. It does not fade: a wall will still be there,
-  // and a risk that fades would be put off for ever.
+  // Static surfaces: the chance that the own position error reaches one. It does not fade: a wall will still
+  // be there, and a risk that fades would be put off for ever.
   const OccupancyMap& map = *request.world.map;
   const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
   const double wanted_clearance = robot_.radius + parameters_.static_margin;

@@ -26,19 +26,26 @@ struct RobotParameters {
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("radius", self.radius, "m", Range{0.01, 5.0}, "radius of the robot's disc");
     visit("max_speed", self.max_speed, "m/s", Range{0.01, 20.0}, "largest planned speed of the centre");
-    visit("max_acceleration", self.max_acceleration, "m/s^2", Range{0.01, 50.0}, "largest planned acceleration");
+    visit("max_acceleration", self.max_acceleration, "m/s^2", Range{0.01, 50.0},
+          "largest planned acceleration");
     visit("max_jerk", self.max_jerk, "m/s^3", Range{0.1, 1000.0}, "largest planned jerk (a soft limit)");
     visit("max_yaw_rate", self.max_yaw_rate, "rad/s", Range{1e-3, 50.0}, "largest planned yaw rate");
-    visit("max_yaw_acceleration", self.max_yaw_acceleration, "rad/s^2", Range{0.01, 500.0}, "largest planned yaw acceleration");
+    visit("max_yaw_acceleration", self.max_yaw_acceleration, "rad/s^2", Range{0.01, 500.0},
+          "largest planned yaw acceleration");
     visit("wheel_count", self.wheel_count, "1", Range{3, 3}, "evenly spaced omni wheels");
-    visit("first_wheel_angle", self.first_wheel_angle, "rad", Range{-6.3, 6.3}, "angle of wheel 1's axle in the body frame (0 in the paper)");
-    visit("wheel_arm", self.wheel_arm, "m", Range{0.001, 5.0}, "distance from the centre to a wheel, L of eq. 14");
+    visit("first_wheel_angle", self.first_wheel_angle, "rad", Range{-6.3, 6.3},
+          "angle of wheel 1's axle in the body frame (0 in the paper)");
+    visit("wheel_arm", self.wheel_arm, "m", Range{0.001, 5.0},
+          "distance from the centre to a wheel, L of eq. 14");
     visit("max_wheel_speed", self.max_wheel_speed, "m/s", Range{0.01, 50.0}, "largest rim speed of a wheel");
     visit("wheel_radius", self.wheel_radius, "m", Range{0.001, 1.0}, "wheel radius, R of eq. 15");
-    visit("max_wheel_torque", self.max_wheel_torque, "N m", Range{1e-4, 1000.0}, "largest torque of one wheel");
+    visit("max_wheel_torque", self.max_wheel_torque, "N m", Range{1e-4, 1000.0},
+          "largest torque of one wheel");
     visit("mass", self.mass, "kg", Range{0.01, 10000.0}, "mass, M of eq. 15");
-    visit("inertia", self.inertia, "kg m^2", Range{1e-6, 10000.0}, "moment of inertia about the vertical, I of eq. 15");
-    visit("motor_lag", self.motor_lag, "s", Range{0.0, 2.0}, "first-order time constant of the wheel speed loop");
+    visit("inertia", self.inertia, "kg m^2", Range{1e-6, 10000.0},
+          "moment of inertia about the vertical, I of eq. 15");
+    visit("motor_lag", self.motor_lag, "s", Range{0.0, 2.0},
+          "first-order time constant of the wheel speed loop");
   }
 };
 

@@ -10,13 +10,17 @@ constexpr double kSqrtHalf = 0.70710678118654752440;
 constexpr double kInverseSqrtTwoPi = 0.39894228040143267794;
 constexpr double kFarSigmas = 5.0;  // Phi(-5) = 3e-7
 
-double tail_chance(double z) { return 0.5 * std::erfc(z * kSqrtHalf); }
-double density(double z) { return kInverseSqrtTwoPi * std::exp(-0.5 * z * z); }
+double tail_chance(double z) {
+  return 0.5 * std::erfc(z * kSqrtHalf);
+}
+double density(double z) {
+  return kInverseSqrtTwoPi * std::exp(-0.5 * z * z);
+}
 
 /// A step of the table and the way from it to the next, for one instant.
 struct Instant {
   std::size_t step = 0;
-  double part = 0.0;    // [0, 1]
+  double part = 0.0;        // [0, 1]
   double per_second = 0.0;  // d part / d time; 0 beyond the table
 };
 
