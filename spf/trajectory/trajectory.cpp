@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spf/math/polynomial_roots.hpp"
+#include "spf/math/quadrature.hpp"
 
 namespace spf {
 namespace {
@@ -54,43 +55,29 @@ double largest_norm(const QuinticPiece& piece) {
   return std::sqrt(largest);
 }
 
-/// Integral of the speed over [from, to] by Gauss-Legendre with 10 nodes (symmetric: node, weight).
-double speed_integral(const QuinticPiece& piece, double from, double to) {
-  constexpr std::array<std::array<double, 2>, 5> kRule{{{0.1488743389816312, 0.2955242247147529},
-                                                        {0.4333953941292472, 0.2692667193099963},
-                                                        {0.6794095682990244, 0.2190863625159820},
-                                                        {0.8650633666889845, 0.1494513491505806},
-                                                        {0.9739065285171717, 0.0666713443086881}}};
-  const double middle = 0.5 * (from + to);
-  const double half = 0.5 * (to - from);
-  double sum = 0.0;
-  for (const auto& [node, weight] : kRule)
-    sum +=
-        weight * (piece.velocity(middle - half * node).norm() + piece.velocity(middle + half * node).norm());
-  return half * sum;
-}
-
-/// The same, halved until both halves together agree with the whole.
-double refined_speed_integral(const QuinticPiece& piece, double from, double to, double whole, int depth) {
-  constexpr double kRelativeTolerance = 1e-9;
-  const double middle = 0.5 * (from + to);
-  const double left = speed_integral(piece, from, middle);
-  const double right = speed_integral(piece, middle, to);
-  if (depth == 0 || std::fabs(left + right - whole) <= kRelativeTolerance * (left + right))
-    return left + right;
-  return refined_speed_integral(piece, from, middle, left, depth - 1) +
-         refined_speed_integral(piece, middle, to, right, depth - 1);
+/// Most that a piece can be long: no part of its velocity takes away from another.
+double length_bound(const QuinticPiece& piece) {
+  double bound = 0.0;
+  for (int k = 5; k >= 1; --k)
+    bound = (bound + piece.coefficients.row(k).norm() * k) * (k > 1 ? piece.duration : 1.0);
+  return bound * piece.duration;
 }
 
 /// The speed has its sharp bends where it (nearly) vanishes, so each monotone stretch is integrated on its
 /// own.
 double piece_length(const QuinticPiece& piece) {
-  constexpr int kMaxHalvings = 20;
+  constexpr double kRelativeTolerance = 1e-10;
+  constexpr double kRounding = 1e-15;  // of the speed, relative to the sum of its parts
+  constexpr int kMaxHalvings = 16;
+  constexpr int kMaxPanels = 256;
+  const auto speed = [&](double local_time) { return piece.velocity(local_time).norm(); };
+  const double estimate = gauss_legendre(speed, 0.0, piece.duration);
+  Quadrature quadrature{std::fmax(kRelativeTolerance * estimate, kRounding * length_bound(piece)),
+                        kMaxHalvings, kMaxPanels};
   double length = 0.0;
   double from = 0.0;
   const auto add_up_to = [&](double to) {
-    const double whole = speed_integral(piece, from, to);
-    length += refined_speed_integral(piece, from, to, whole, kMaxHalvings);
+    length += quadrature.integrate(speed, from, to);
     from = to;
   };
   for (const double turn : polynomial_roots(squared_norm_slope<1>(piece), 0.0, 1.0))

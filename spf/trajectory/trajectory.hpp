@@ -68,7 +68,8 @@ class Trajectory {
   /// Bounds over the motion, found from polynomial roots to rounding, not by sampling [m/s], [m/s^2].
   [[nodiscard]] double max_speed() const;
   [[nodiscard]] double max_acceleration() const;
-  /// Length of the path from start to end [m], by quadrature.
+  /// Length of the path from start to end [m], by quadrature: to about 1e-9 of itself, and with no more than
+  /// some 2700 evaluations of the speed per piece.
   [[nodiscard]] double length() const;
 
  private:

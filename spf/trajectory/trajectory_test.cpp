@@ -203,6 +203,36 @@ TEST(Trajectory, LengthCountsTheWayThereAndBack) {
   EXPECT_NEAR(trajectory.length(), 0.5, 1e-14);  // the speed is linear on both halves: exact but for rounding
 }
 
+TEST(Trajectory, LengthOfAPathThatNearlyStopsInItsMidst) {
+  // x = (t - 1/2)^2 turns round, y = gap * t: the speed sqrt(4 (t - 1/2)^2 + gap^2) in closed form.
+  for (const double gap : {0.1, 1e-3, 1e-5, 1e-8, 1e-12}) {
+    QuinticPiece piece;
+    piece.coefficients.row(1) << -1.0, gap;
+    piece.coefficients(2, 0) = 1.0;
+    piece.duration = 1.0;
+    Trajectory trajectory{0.0};
+    trajectory.append(piece);
+    const double exact = 0.5 * (std::hypot(1.0, gap) + gap * gap * std::asinh(1.0 / gap));
+    EXPECT_NEAR(trajectory.length(), exact, 1e-9) << "gap " << gap;
+  }
+}
+
+TEST(Trajectory, LengthOfAPlanThatStandsButForRounding) {
+  RandomStream random{91};
+  Trajectory trajectory{0.0};
+  for (int i = 0; i < Trajectory::kMaxPieces; ++i) {
+    QuinticPiece piece;
+    piece.duration = 1.0;
+    piece.coefficients.row(0) << 3.0, -4.0;
+    for (int k = 1; k <= 5; ++k)
+      piece.coefficients.row(k) << random.uniform(-1e-16, 1e-16), random.uniform(-1e-16, 1e-16);
+    trajectory.append(piece);
+  }
+  // Each of the five powers adds at most k sqrt(2) 1e-16 m.
+  EXPECT_GT(trajectory.length(), 0.0);
+  EXPECT_LE(trajectory.length(), Trajectory::kMaxPieces * 15.0 * 1.5e-16);
+}
+
 TEST(Trajectory, CopiesAndQueriesWithoutAllocating) {
   RandomStream random{9};
   const AllocationGuard guard;
