@@ -93,12 +93,16 @@ Trajectory to_trajectory(const RollOut& roll_out, double start_time, const RollO
     k = last;
   }
   const auto end = static_cast<std::size_t>(roll_out.steps);
-  const double speed = roll_out.velocity_world[end].norm();
-  if (speed > 1e-6) {
-    trajectory.append(ramp(roll_out.position_world[end], roll_out.velocity_world[end],
-                           Eigen::Vector2d::Zero(), speed / settings.max_acceleration));
-  }
+  append_braking({roll_out.position_world[end], roll_out.velocity_world[end], Eigen::Vector2d::Zero()},
+                 settings, trajectory);
   return trajectory;
+}
+
+void append_braking(const FlatState& end, const RollOutSettings& settings, Trajectory& trajectory) {
+  const double speed = end.velocity_world.norm();
+  if (speed <= 1e-6) return;
+  trajectory.append(ramp(end.position_world, end.velocity_world, Eigen::Vector2d::Zero(),
+                         speed / settings.max_acceleration));
 }
 
 }  // namespace spf

@@ -50,4 +50,8 @@ void roll_out(const Manoeuvre& manoeuvre, const FlatState& head, const GuidePath
 [[nodiscard]] Trajectory to_trajectory(const RollOut& roll_out, double start_time,
                                        const RollOutSettings& settings);
 
+/// Appends the braking to rest with which every plan ends, from the state in which the trajectory ends;
+/// nothing when that is at rest.
+void append_braking(const FlatState& end, const RollOutSettings& settings, Trajectory& trajectory);
+
 }  // namespace spf

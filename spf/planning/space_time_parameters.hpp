@@ -23,6 +23,10 @@ struct SpaceTimeParameters {
   double peer_sigma = 0.02;            ///< [m] uncertainty of a peer's plan now
   double peer_sigma_growth = 0.08;     ///< [m/s] and its growth: peers plan again
   double lower_priority_weight = 0.5;  ///< [1] weight of the risk with peers that have to yield to us
+  double renewal = 1.0;                ///< [s] a plan under way is kept at most this long
+  bool smoothing = true;               ///< the chosen way is made smooth by the optimiser
+  int smoothing_evaluations = 40;      ///< [1] cost evaluations of that at most
+  double smoothing_tolerance = 0.05;   ///< [s] by which the smooth way may be dearer than the chosen one
   bool predict_bounces = true;         ///< the mean motion of an obstacle turns at static surfaces
 
   template <class Self, class Visitor>
@@ -53,6 +57,12 @@ struct SpaceTimeParameters {
           "growth of that uncertainty, since peers plan again");
     visit("lower_priority_weight", self.lower_priority_weight, "1", Range{0.0, 1.0},
           "weight of the risk with peers that yield to this robot");
+    visit("renewal", self.renewal, "s", Range{0.1, 2.0}, "a plan under way is kept at most this long");
+    visit("smoothing", self.smoothing, "the chosen way is made smooth by the optimiser (MINCO under L-BFGS)");
+    visit("smoothing_evaluations", self.smoothing_evaluations, "1", Range{5, 10000},
+          "cost evaluations of the smoothing at most");
+    visit("smoothing_tolerance", self.smoothing_tolerance, "s", Range{0.0, 10.0},
+          "by which the smooth way may be dearer than the chosen one");
     visit("predict_bounces", self.predict_bounces,
           "predicted obstacles turn at static surfaces of the robot's map");
   }

@@ -15,10 +15,12 @@ RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotPa
 
 }  // namespace
 
-SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const RobotParameters& robot)
+SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const PlannerParameters& planner,
+                                   const RobotParameters& robot)
     : parameters_{validated(parameters)},
       robot_{validated(robot)},
-      risk_{parameters_, robot_.radius, robot_.max_speed} {
+      risk_{parameters_, robot_.radius, robot_.max_speed},
+      smoother_{parameters_, planner, robot_} {
   settings_ = settings_of(parameters_, robot_, risk_.steps());
 }
 
@@ -27,9 +29,10 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   Score score;
   const auto end = static_cast<std::size_t>(roll_out.steps);
   const Eigen::Vector2d& tail = roll_out.position_world[end];
-  // Travel time left: the way at full speed, and half the change of velocity that is still needed.
+  // Travel time: what has passed, the way left at full speed, and half the change of velocity that is still
+  // needed.
   const Eigen::Vector2d wanted = goal_velocity(tail, guide, settings_);
-  score.time = guide.cost_to_go(tail) / settings_.max_speed +
+  score.time = settings_.step * roll_out.steps + guide.cost_to_go(tail) / settings_.max_speed +
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
   if (score.time > enough) return score;
 
@@ -50,7 +53,8 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   const double left = (enough - score.time) / std::max(parameters_.risk_price, 1e-9) - static_chance;
   score.risk = static_chance * parameters_.risk_price;
   if (left < 0.0) return score;
-  score.risk += risk_.along(roll_out.position_world, left, &score.worst) * parameters_.risk_price;
+  score.risk +=
+      risk_.along(roll_out.position_world, roll_out.steps, left, &score.worst) * parameters_.risk_price;
   return score;
 }
 
@@ -67,29 +71,29 @@ void SpaceTimePlanner::consider(const Manoeuvre& manoeuvre, const PlanRequest& r
   best_is_previous_ = false;
 }
 
-bool SpaceTimePlanner::consider_previous(const PlanRequest& request, const GuidePath& guide,
-                                         PlanResult& result, bool keep) {
-  const Trajectory* committed = request.committed;
-  if (committed == nullptr || committed->empty()) return false;
-  if (committed->end_time() < request.time + 1.0) return false;
-  const FlatState now = committed->state(request.time);
-  // Only when the request starts on it: after a reset the old plan is no longer a way to go.
-  if ((now.position_world - request.head.position_world).norm() > 1e-6) return false;
-  trial_.steps = settings_.steps;
-  for (int k = 0; k <= settings_.steps; ++k) {
-    const FlatState state = committed->state(request.time + k * settings_.step);
+/// Steps of a trajectory, from one time to another, as a roll-out.
+void SpaceTimePlanner::sample(const Trajectory& trajectory, double from, double until) {
+  trial_.steps = std::min(settings_.steps, static_cast<int>((until - from) / settings_.step + 1e-6));
+  for (int k = 0; k <= trial_.steps; ++k) {
+    const FlatState state = trajectory.state(from + k * settings_.step);
     trial_.position_world[static_cast<std::size_t>(k)] = state.position_world;
     trial_.velocity_world[static_cast<std::size_t>(k)] = state.velocity_world;
   }
+}
+
+void SpaceTimePlanner::consider_previous(const PlanRequest& request, const GuidePath& guide,
+                                         PlanResult& result, bool keep) {
+  const Trajectory* committed = request.committed;
+  if (committed == nullptr || committed->empty() || committed->start_time() != plan_start_) return;
+  if (request.time > plan_start_ + parameters_.renewal) return;
+  sample(*committed, request.time, drive_end_);
+  if (trial_.steps < settings_.steps / 2) return;
   Score previous = score(trial_, request, guide, std::numeric_limits<double>::infinity());
   previous.time -= parameters_.keep_bonus;
   if (keep) keep_candidate(trial_, Candidate::Kind::previous, previous, request, result);
-  if (previous.total() < best_score_.total()) {
-    best_ = trial_;
-    best_score_ = previous;
-    best_is_previous_ = true;
-  }
-  return true;
+  best_ = trial_;
+  best_score_ = previous;
+  best_is_previous_ = true;
 }
 
 void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, const GuidePath& guide,
@@ -123,24 +127,26 @@ void SpaceTimePlanner::plan(const PlanRequest& request, const GuidePath& guide, 
 
   // 1. Where everything that moves is believed to be over the horizon.
   risk_.prepare(request);
-  // 2. The direct way, at once when it is free.
-  consider({{}, 0.0, Manoeuvre::Then::goal}, request, guide, result, keep_candidates);
-  const int obstructing = best_score_.worst;
-  if (best_score_.risk > parameters_.accepted_risk) {
+  // 2. The plan under way and the direct way; enough when the direct way is free.
+  consider_previous(request, guide, result, keep_candidates);
+  const Manoeuvre direct{{}, 0.0, Manoeuvre::Then::goal};
+  roll_out(direct, request.head, guide, settings_, trial_);
+  const Score direct_score = score(trial_, request, guide, std::numeric_limits<double>::infinity());
+  consider(direct, request, guide, result, keep_candidates);
+  if (direct_score.risk > parameters_.accepted_risk) {
     // 3. What shapes the plan is named, then every other way is weighed.
-    if (obstructing >= 0) {
-      const SpaceTimeRisk::Entity& entity = risk_.entity(obstructing);
+    if (direct_score.worst >= 0) {
+      const SpaceTimeRisk::Entity& entity = risk_.entity(direct_score.worst);
       (entity.is_peer ? result.blocking_peer : result.blocking_track) = entity.id;
     }
-    consider_previous(request, guide, result, keep_candidates);
     consider({{}, 0.0, Manoeuvre::Then::brake}, request, guide, result, keep_candidates);
     consider({{}, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, guide, result,
              keep_candidates);
     consider({{}, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, guide, result, keep_candidates);
     consider_sidesteps(request, guide, result, keep_candidates);
   }
-  // 4. The best of them is the plan.
-  finish(request, result);
+  // 4. The best of them, made smooth, is the plan.
+  finish(request, guide, result, keep_candidates);
 }
 
 void SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,
@@ -153,10 +159,36 @@ void SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind k
   result.candidates.push_back(candidate);
 }
 
-void SpaceTimePlanner::finish(const PlanRequest& request, PlanResult& result) const {
-  result.risk = best_score_.risk;
+bool SpaceTimePlanner::smooth_best(const PlanRequest& request, const GuidePath& guide, PlanResult& result,
+                                   bool keep) {
+  if (!parameters_.smoothing) return false;
+  if (!smoother_.smooth(best_, request, risk_, settings_, smooth_, result.stats)) return false;
+  const double braking = best_.velocity_world[static_cast<std::size_t>(best_.steps)].norm();
+  const double drive_end = smooth_.end_time() - (braking > 1e-6 ? braking / settings_.max_acceleration : 0.0);
+  sample(smooth_, request.time, drive_end);
+  if (trial_.steps < settings_.steps / 2) return false;
+  const double enough = best_score_.total() + parameters_.smoothing_tolerance;
+  const Score smooth_score =
+      score(trial_, request, guide, keep ? std::numeric_limits<double>::infinity() : enough);
+  if (keep) keep_candidate(trial_, Candidate::Kind::optimised, smooth_score, request, result);
+  if (smooth_score.total() > enough) return false;
+  best_score_ = smooth_score;
+  drive_end_ = drive_end;
+  return true;
+}
+
+void SpaceTimePlanner::finish(const PlanRequest& request, const GuidePath& guide, PlanResult& result,
+                              bool keep) {
   result.outcome = PlanOutcome::success;
-  result.trajectory = best_is_previous_ ? *request.committed : to_trajectory(best_, request.time, settings_);
+  if (best_is_previous_) {
+    result.trajectory = *request.committed;
+  } else {
+    plan_start_ = request.time;
+    drive_end_ = request.time + settings_.step * best_.steps;
+    const bool smooth = smooth_best(request, guide, result, keep);
+    result.trajectory = smooth ? smooth_ : to_trajectory(best_, request.time, settings_);
+  }
+  result.risk = best_score_.risk;
   for (Candidate& candidate : result.candidates) {
     candidate.chosen = candidate.cost == best_score_.total();
   }

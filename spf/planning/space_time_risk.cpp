@@ -122,15 +122,15 @@ double SpaceTimeRisk::chance(const Entity& entity, int step, const Eigen::Vector
   return 0.5 * std::erfc(z * kSqrtHalf) * entity.size_factor[at];
 }
 
-double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, double enough,
-                            int* worst) const {
+double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
+                            double enough, int* worst) const {
   double sum = 0.0;
   double largest = 0.0;
   if (worst != nullptr) *worst = -1;
   for (int i = 0; i < entity_count_; ++i) {
     const Entity& entity = entities_[static_cast<std::size_t>(i)];
     double peak = 0.0;
-    for (int k = 1; k <= steps_; ++k) {
+    for (int k = 1; k <= steps; ++k) {
       if (entity.size_factor[static_cast<std::size_t>(k)] <= peak) continue;  // cannot exceed the peak
       peak = std::max(peak, chance(entity, k, positions[static_cast<std::size_t>(k)]));
     }

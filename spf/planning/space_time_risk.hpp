@@ -51,8 +51,8 @@ class SpaceTimeRisk {
 
   /// Sum over entities of the largest faded chance along positions[0..steps]; stops counting once the sum
   /// exceeds `enough`. `worst` receives the index of the entity that contributes most, -1 for none.
-  [[nodiscard]] double along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, double enough,
-                             int* worst = nullptr) const;
+  [[nodiscard]] double along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
+                             double enough, int* worst = nullptr) const;
 
  private:
   void add_track(const PlanRequest& request, const ObstacleTrack& track);

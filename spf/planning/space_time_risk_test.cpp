@@ -106,7 +106,7 @@ TEST(SpaceTimeRisk, KnowsWhenAnObstacleIsWhere) {
   const double fading = std::exp(-1.0 / 0.7);
   EXPECT_NEAR(risk.chance(risk.entity(0), 10, {2.0, 0.0}), fading, 1e-9);  // 27 sigma inside
   EXPECT_EQ(risk.chance(risk.entity(0), 30, {2.0, -1.0}), 0.0);            // it is 3 m away by then
-  EXPECT_GT(risk.along(standing_at({2.0, 0.0}), 1e9), 0.9 * fading);
+  EXPECT_GT(risk.along(standing_at({2.0, 0.0}), risk.steps(), 1e9), 0.9 * fading);
 }
 
 TEST(SpaceTimeRisk, IsUnchangedWhenTheSceneTurns) {
@@ -124,9 +124,9 @@ TEST(SpaceTimeRisk, IsUnchangedWhenTheSceneTurns) {
     turned.tracks.push_back(track_at(0, turn * position, turn * velocity));
     SpaceTimeRisk risk{parameters, 0.3, 1.0};
     risk.prepare(scene.request());
-    const double before = risk.along(standing_at(query), 1e9);
+    const double before = risk.along(standing_at(query), risk.steps(), 1e9);
     risk.prepare(turned.request());
-    EXPECT_NEAR(risk.along(standing_at(turn * query), 1e9), before, 1e-9);
+    EXPECT_NEAR(risk.along(standing_at(turn * query), risk.steps(), 1e9), before, 1e-9);
   }
 }
 
@@ -139,10 +139,10 @@ TEST(SpaceTimeRisk, CountsAPeerThatYieldsByItsWeightOnly) {
   scene.peers.push_back(peer);
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
-  const double yielding = risk.along(standing_at({1.0, 0.0}), 1e9);
+  const double yielding = risk.along(standing_at({1.0, 0.0}), risk.steps(), 1e9);
   scene.peers[0].state = PeerState::stopped;
   risk.prepare(scene.request());
-  const double standing = risk.along(standing_at({1.0, 0.0}), 1e9);
+  const double standing = risk.along(standing_at({1.0, 0.0}), risk.steps(), 1e9);
   EXPECT_NEAR(yielding, 0.5 * standing, 1e-12);
 }
 
@@ -152,10 +152,10 @@ TEST(SpaceTimeRisk, GrowsWithOwnUncertaintyOutsideTheRadius) {
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   PlanRequest request = scene.request();
   risk.prepare(request);
-  const double sure = risk.along(standing_at({0.9, 0.0}), 1e9);
+  const double sure = risk.along(standing_at({0.9, 0.0}), risk.steps(), 1e9);
   request.position_sigma = 0.2;
   risk.prepare(request);
-  EXPECT_GT(risk.along(standing_at({0.9, 0.0}), 1e9), sure);
+  EXPECT_GT(risk.along(standing_at({0.9, 0.0}), risk.steps(), 1e9), sure);
 }
 
 }  // namespace

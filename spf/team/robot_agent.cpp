@@ -147,7 +147,7 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       obstacle_tracker{parameters.obstacles},
       peer_table{robot_id, parameters.peers},
       guide{guide_parameters(parameters)},
-      space_time{parameters.space_time, parameters.robot},
+      space_time{parameters.space_time, parameters.planner, parameters.robot},
       orca{parameters.orca, parameters.robot},
       field{planner_parameters(parameters), parameters.robot, parameters.field, parameters.team},
       committed{Trajectory::standing(start.position_world, time, 1.0, HeadingProfile{start.heading})},
