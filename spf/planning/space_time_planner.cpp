@@ -129,7 +129,8 @@ void SpaceTimePlanner::plan(const PlanRequest& request, const GuidePath& guide, 
   risk_.prepare(request);
   // 2. The plan under way and the direct way; enough when the direct way is free.
   consider_previous(request, guide, result, keep_candidates);
-  const Manoeuvre direct{{}, 0.0, Manoeuvre::Then::goal};
+  const Eigen::Vector2d still = Eigen::Vector2d::Zero();
+  const Manoeuvre direct{still, 0.0, Manoeuvre::Then::goal};
   roll_out(direct, request.head, guide, settings_, trial_);
   const Score direct_score = score(trial_, request, guide, std::numeric_limits<double>::infinity());
   consider(direct, request, guide, result, keep_candidates);
@@ -139,10 +140,10 @@ void SpaceTimePlanner::plan(const PlanRequest& request, const GuidePath& guide, 
       const SpaceTimeRisk::Entity& entity = risk_.entity(direct_score.worst);
       (entity.is_peer ? result.blocking_peer : result.blocking_track) = entity.id;
     }
-    consider({{}, 0.0, Manoeuvre::Then::brake}, request, guide, result, keep_candidates);
-    consider({{}, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, guide, result,
+    consider({still, 0.0, Manoeuvre::Then::brake}, request, guide, result, keep_candidates);
+    consider({still, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, guide, result,
              keep_candidates);
-    consider({{}, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, guide, result, keep_candidates);
+    consider({still, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, guide, result, keep_candidates);
     consider_sidesteps(request, guide, result, keep_candidates);
   }
   // 4. The best of them, made smooth, is the plan.
