@@ -43,6 +43,8 @@ std::string failures_text(const std::vector<TrialRecord>& trials) {
   return text;
 }
 
+}  // namespace
+
 std::string today() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -50,8 +52,6 @@ std::string today() {
   char text[32];
   return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
 }
-
-}  // namespace
 
 std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials) {
   const ResultRow row = result_row(trials);

@@ -25,6 +25,9 @@ struct RunFacts {
 /// run.json: what made these results.
 [[nodiscard]] std::string run_json(const Study& study, const RunFacts& facts);
 
+/// Now, as 2026-01-31T12:00:00Z.
+[[nodiscard]] std::string today();
+
 /// scenario.yaml: every key written out; running it again gives the same trials.
 [[nodiscard]] std::string resolved_scenario(const Study& study);
 

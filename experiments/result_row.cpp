@@ -84,6 +84,7 @@ ResultRow result_row(const std::vector<TrialRecord>& trials) {
   row.level = key.level;
   row.tracking = key.tracking;
   row.seed = key.seed;
+  row.condition = key.condition;
   DurationHistogram plan_time, control_time;
   std::vector<double> calls;
   for (const TrialRecord& trial : trials) {
@@ -113,6 +114,7 @@ ResultRow result_row(const std::vector<TrialRecord>& trials) {
 std::string to_json_line(const ResultRow& row) {
   Json json = Json::object();
   ResultRow::visit_fields(row, [&json](const char* name, const auto& value) { json[name] = value; });
+  if (!row.condition.empty()) json["condition"] = row.condition;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // NaN is written as null
 }
 
@@ -140,6 +142,7 @@ PairedRow paired_row(const std::vector<TrialRecord>& a, const std::vector<TrialR
   row.tracking = key.tracking;
   row.level = key.level;
   row.seed = key.seed;
+  row.condition = key.condition;
   row.method_a = key.method;
   row.method_b = b.front().key.method;
   for (const TrialRecord& trial : b) {
@@ -154,11 +157,12 @@ PairedRow paired_row(const std::vector<TrialRecord>& a, const std::vector<TrialR
 }
 
 std::string to_json_line(const PairedRow& row) {
-  const Json json{{"paired", true},         {"family", row.family},      {"noise", row.noise},
-                  {"level", row.level},     {"tracking", row.tracking},  {"seed", row.seed},
-                  {"trials", row.trials},   {"method_a", row.method_a},  {"method_b", row.method_b},
-                  {"both", row.both},       {"only_a", row.only_a},      {"only_b", row.only_b},
-                  {"neither", row.neither}, {"mcnemar_p", row.mcnemar_p}};
+  Json json{{"paired", true},         {"family", row.family},      {"noise", row.noise},
+            {"level", row.level},     {"tracking", row.tracking},  {"seed", row.seed},
+            {"trials", row.trials},   {"method_a", row.method_a},  {"method_b", row.method_b},
+            {"both", row.both},       {"only_a", row.only_a},      {"only_b", row.only_b},
+            {"neither", row.neither}, {"mcnemar_p", row.mcnemar_p}};
+  if (!row.condition.empty()) json["condition"] = row.condition;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

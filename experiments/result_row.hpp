@@ -32,6 +32,7 @@ struct ResultRow {
   double control_us_median = kNotKnown, control_us_p99 = kNotKnown;                     ///< [us]
   int arrived_robots = 0, robots = 0;                                                   ///< in all trials
   double sim_seconds = 0.0, wall_seconds = 0.0;                                         ///< [s] in all trials
+  std::string condition;  ///< of a campaign; a row without one does not write it
 
   /// The only list of these fields.
   template <class Self, class Visitor>
@@ -85,7 +86,8 @@ struct PairedRow {
   std::string family, noise, tracking;
   double level = 0.0;
   std::uint64_t seed = 0;
-  int trials = 0;  ///< that both ran
+  std::string condition;  ///< as in ResultRow
+  int trials = 0;         ///< that both ran
   std::string method_a, method_b;
   int both = 0, only_a = 0, only_b = 0, neither = 0;  ///< trials that succeeded with ...
   double mcnemar_p = 1.0;                             ///< [1] exact, two-sided

@@ -1,6 +1,7 @@
 #include "experiments/results_folder.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -93,6 +94,22 @@ LineFile::LineFile(const std::filesystem::path& path)
   if (descriptor_ < 0) fail(path_, "cannot be written", errno);
 }
 
+LineFile::LineFile(const std::filesystem::path& path, std::uintmax_t keep)
+    : path_{path}, descriptor_{::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)} {
+  if (descriptor_ < 0) fail(path_, "cannot be written", errno);
+  int error = 0;
+  const char* what = "cannot be written";
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    error = errno;
+    what = "is being written by another run";
+  } else if (::ftruncate(descriptor_, static_cast<off_t>(keep)) != 0) {
+    error = errno;
+  }
+  if (error == 0) return;
+  ::close(descriptor_);
+  fail(path_, what, error);
+}
+
 LineFile::~LineFile() {
   ::close(descriptor_);
 }
@@ -105,13 +122,14 @@ void LineFile::append(const std::string& line) {
   fail(path_, "cannot be written", error);
 }
 
-ResultsFolder::ResultsFolder(std::filesystem::path folder) : folder_{std::move(folder)} {
+ResultsFolder::ResultsFolder(std::filesystem::path folder, EarlierResults earlier)
+    : folder_{std::move(folder)} {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw OutputError{folder_.string() + ": cannot make this folder: " + error.message()};
   if (!std::filesystem::is_directory(folder_)) throw OutputError{folder_.string() + ": is no folder"};
-  for (std::filesystem::directory_iterator entry{folder_, error}, end; !error && entry != end;
-       entry.increment(error))
+  for (std::filesystem::directory_iterator entry{folder_, error}, end;
+       earlier == EarlierResults::remove && !error && entry != end; entry.increment(error))
     if (is_ours(entry->path().filename().string())) std::filesystem::remove(entry->path(), error);
   if (error)
     throw OutputError{folder_.string() + ": cannot be cleared of earlier results: " + error.message()};

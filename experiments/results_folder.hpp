@@ -2,6 +2,7 @@
 // growing file grows by whole lines.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,9 @@ class LineFile {
  public:
   /// Begins an empty file. Throws OutputError.
   explicit LineFile(const std::filesystem::path& path);
+  /// Goes on with a file (a new one, when there is none) behind its first `keep` bytes; what follows them is
+  /// dropped. Nobody else may be writing it this way: throws OutputError then, and when it cannot be written.
+  LineFile(const std::filesystem::path& path, std::uintmax_t keep);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
@@ -38,11 +42,13 @@ class LineFile {
   int descriptor_;
 };
 
+enum class EarlierResults { remove, keep };
+
 class ResultsFolder {
  public:
   /// Makes the folder and removes the results of an earlier run from it, by the names that this program
-  /// gives; other files stay. Throws OutputError.
-  explicit ResultsFolder(std::filesystem::path folder);
+  /// gives, unless they are to be kept; other files stay. Throws OutputError.
+  explicit ResultsFolder(std::filesystem::path folder, EarlierResults earlier = EarlierResults::remove);
 
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& text) const {

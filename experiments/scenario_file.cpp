@@ -226,6 +226,10 @@ AgentParameters agent_parameters(const Study& study) {
   AgentParameters parameters = study.agent;
   parameters.robot = study.robot;
   parameters.ideal_tracking = study.simulation.trial.tracking == sim::TrackingMode::ideal;
+  const sim::PoseNoiseParameters& noise = study.simulation.pose_noise;
+  ObserverParameters& observer = parameters.tracker.observer;
+  if (observer.pose_sigma == 0.0) observer.pose_sigma = noise.position_sigma;
+  if (observer.heading_sigma == 0.0) observer.heading_sigma = std::min(noise.heading_sigma, 3.0);
   return parameters;
 }
 

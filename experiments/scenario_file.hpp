@@ -172,7 +172,9 @@ struct Setting {
 /// Ground truth of trial k. Throws std::runtime_error when a family finds no scene for its layout.
 [[nodiscard]] sim::Scenario make_trial(const Study& study, int trial);
 
-/// Parameters of every robot: `agent` with the study's robot.
+/// Parameters of every robot: `agent` with the study's robot. An observer whose pose_sigma or heading_sigma
+/// is 0 (the default, "as exact as the scenario says") is told the scenario's pose_noise; any other value
+/// counts as written, so that an observer can be misinformed on purpose.
 [[nodiscard]] AgentParameters agent_parameters(const Study& study);
 
 // ---- implementation of the field list

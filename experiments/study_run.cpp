@@ -88,7 +88,8 @@ TrialKey key_of(const Study& study, int trial) {
           simulation.noise.level,
           enum_name(simulation.trial.tracking),
           study.seed,
-          trial};
+          trial,
+          ""};
 }
 
 TrialRecord record_of(const Study& study, const sim::TrialResult& result) {

@@ -79,6 +79,23 @@ ContactRecord contact_from_json(const Json& json) {
   return contact;
 }
 
+Json to_json(const CauseRecord& cause) {
+  return {{"robot", cause.robot},
+          {"last_plan", cause.last_plan},
+          {"plan_age", number(cause.plan_age)},
+          {"stand_reason", cause.stand_reason},
+          {"culprit", cause.culprit}};
+}
+CauseRecord cause_from_json(const Json& json) {
+  CauseRecord cause;
+  cause.robot = json.at("robot").get<int>();
+  cause.last_plan = json.at("last_plan").get<std::string>();
+  cause.plan_age = number_at(json, "plan_age");
+  cause.stand_reason = json.at("stand_reason").get<std::string>();
+  cause.culprit = json.at("culprit").get<int>();
+  return cause;
+}
+
 TrialRecord record_from_json(const Json& json) {
   TrialRecord record;
   record.key.family = json.at("family").get<std::string>();
@@ -88,6 +105,9 @@ TrialRecord record_from_json(const Json& json) {
   record.key.tracking = json.at("tracking").get<std::string>();
   record.key.seed = json.at("seed").get<std::uint64_t>();
   record.key.trial = json.at("trial").get<int>();
+  record.key.condition = json.value("condition", "");
+  record.setup = json.value("setup", "");
+  if (json.contains("cause")) record.cause = cause_from_json(json.at("cause"));
   record.outcome = json.at("outcome").get<std::string>();
   record.failure = json.at("failure").get<std::string>();
   if (!json.at("contact").is_null()) record.contact = contact_from_json(json.at("contact"));
@@ -109,26 +129,30 @@ TrialRecord record_from_json(const Json& json) {
 std::string to_json_line(const TrialRecord& record) {
   Json robots = Json::array();
   for (const RobotRecord& robot : record.robots) robots.push_back(to_json(robot));
-  const Json json{{"family", record.key.family},
-                  {"method", record.key.method},
-                  {"noise", record.key.noise},
-                  {"level", number(record.key.level)},
-                  {"tracking", record.key.tracking},
-                  {"seed", record.key.seed},
-                  {"trial", record.key.trial},
-                  {"outcome", record.outcome},
-                  {"failure", record.failure},
-                  {"contact", record.contact ? to_json(*record.contact) : Json(nullptr)},
-                  {"contacts", record.contacts},
-                  {"hits_while_standing", record.hits_while_standing},
-                  {"sim_time", number(record.sim_time)},
-                  {"dynamic_distance", number(record.dynamic_distance)},
-                  {"dynamic_clearance", number(record.dynamic_clearance)},
-                  {"robots", robots},
-                  {"digest", record.digest},
-                  {"plan_time", to_json(record.plan_time)},
-                  {"control_time", to_json(record.control_time)},
-                  {"wall_time", number(record.wall_time)}};
+  Json json{{"family", record.key.family},
+            {"method", record.key.method},
+            {"noise", record.key.noise},
+            {"level", number(record.key.level)},
+            {"tracking", record.key.tracking},
+            {"seed", record.key.seed},
+            {"trial", record.key.trial},
+            {"outcome", record.outcome},
+            {"failure", record.failure},
+            {"contact", record.contact ? to_json(*record.contact) : Json(nullptr)},
+            {"contacts", record.contacts},
+            {"hits_while_standing", record.hits_while_standing},
+            {"sim_time", number(record.sim_time)},
+            {"dynamic_distance", number(record.dynamic_distance)},
+            {"dynamic_clearance", number(record.dynamic_clearance)},
+            {"robots", robots},
+            {"digest", record.digest},
+            {"plan_time", to_json(record.plan_time)},
+            {"control_time", to_json(record.control_time)},
+            {"wall_time", number(record.wall_time)}};
+  // Only campaigns have these.
+  if (!record.key.condition.empty()) json["condition"] = record.key.condition;
+  if (!record.setup.empty()) json["setup"] = record.setup;
+  if (record.cause) json["cause"] = to_json(*record.cause);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

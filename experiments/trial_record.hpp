@@ -25,6 +25,7 @@ struct TrialKey {
   std::string tracking;  ///< ideal, full
   std::uint64_t seed = 0;
   int trial = 0;
+  std::string condition;  ///< of a campaign: which further settings of the scene; empty = none
 };
 
 /// Of one robot; lengths and times count until it first arrived, or to the end of the trial.
@@ -51,8 +52,18 @@ struct ContactRecord {
   double other_speed = 0.0;                            ///< [m/s]
 };
 
+/// What a robot was about when its trial failed.
+struct CauseRecord {
+  int robot = -1;            ///< that touched something, or the first that is not home
+  std::string last_plan;     ///< outcome of its last planning call, empty when there was none
+  double plan_age = 0.0;     ///< [s] since that call
+  std::string stand_reason;  ///< moving, obstacle ahead, ...
+  int culprit = -1;          ///< id of the obstacle or peer behind the reason, -1 = none
+};
+
 struct TrialRecord {
   TrialKey key;
+  std::string setup;    ///< of a campaign: hash over all settings of the trial but its number
   std::string outcome;  ///< success, collision, overtime
   std::optional<ContactRecord> contact;
   int contacts = 0;             ///< in all, where contacts do not end a trial
@@ -62,8 +73,9 @@ struct TrialRecord {
       kNotKnown;  ///< [m] smallest, centre to a moving obstacle; unknown when there is none
   double dynamic_clearance = kNotKnown;  ///< [m] the same minus radii
   std::vector<RobotRecord> robots;
-  std::string failure;  ///< why it failed, in words; empty after a success
-  std::string digest;   ///< hash over the bits of all positions, in hexadecimal digits
+  std::string failure;               ///< why it failed, in words; empty after a success
+  std::optional<CauseRecord> cause;  ///< of a failed trial of a campaign
+  std::string digest;                ///< hash over the bits of all positions, in hexadecimal digits
 
   // Timings: the only fields that differ between runs.
   DurationHistogram plan_time;     ///< [s] of each planning call

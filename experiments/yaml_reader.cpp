@@ -171,6 +171,13 @@ const YamlNode* FieldReader::take(const char* name) {
   return map_.find(name);
 }
 
+const YamlNode* FieldReader::take_list(const char* name) {
+  const YamlNode* node = take(name);
+  if (node == nullptr || node->kind == YamlKind::list) return node;
+  ReadTarget{*node, prefix_ + name, problems_}.refuse("must be a list");
+  return nullptr;
+}
+
 void FieldReader::required(const char* name) {
   if (map_.find(name) == nullptr) problems_.add(map_.place, prefix_ + name + " is missing");
 }

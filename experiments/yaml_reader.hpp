@@ -6,6 +6,8 @@
 //   visit(name, Eigen::Vector2d or std::optional<double>, unit, range, what)
 //   visit(name, std::string, what)
 //   visit.list(name, std::vector<Struct>, what)   entries are maps, read by Struct::visit_fields
+//   visit.values(name, std::vector<double>, unit, range, what)           numbers in brackets
+//   visit.values(name, std::vector<std::string or enumeration>, what)    words in brackets
 //   visit.optional_group(name, std::optional<Struct>, what)
 //   visit.required(name)                          the key must be there
 #pragma once
@@ -81,6 +83,10 @@ class KeyCollector {
     Entry::visit_fields(entry, *this);
     prefix_ = outer;
   }
+  template <class... Rest>
+  void values(const char* name, const Rest&...) {
+    keys_.push_back(prefix_ + name);
+  }
   void required(const char*) {}
   [[nodiscard]] std::vector<std::string> take() { return std::move(keys_); }
 
@@ -120,12 +126,19 @@ class FieldReader {
   void optional_group(const char* name, std::optional<Nested>& nested, const char*) {
     if (const YamlNode* node = take(name)) read_map(*node, prefix_ + name, nested.emplace());
   }
+  template <class Number>
+  void values(const char* name, std::vector<Number>& numbers, const char* unit, Range range, const char*) {
+    read_values(name, numbers,
+                [&](const ReadTarget& target, Number& value) { read_value(target, unit, range, value); });
+  }
+  template <class Choice>
+  void values(const char* name, std::vector<Choice>& choices, const char*) {
+    read_values(name, choices, [](const ReadTarget& target, Choice& value) { read_choice(target, value); });
+  }
   template <class Entry>
   void list(const char* name, std::vector<Entry>& entries, const char*) {
-    const YamlNode* node = take(name);
+    const YamlNode* node = take_list(name);
     if (node == nullptr) return;
-    if (node->kind != YamlKind::list)
-      return ReadTarget{*node, prefix_ + name, problems_}.refuse("must be a list");
     entries.assign(node->items.size(), Entry{});
     for (std::size_t i = 0; i < entries.size(); ++i)
       read_map(node->items[i], prefix_ + name + "[" + std::to_string(i) + "]", entries[i]);
@@ -146,7 +159,17 @@ class FieldReader {
     Nested::visit_fields(nested, reader);
     reader.finish();
   }
+  template <class Value, class Read>
+  void read_values(const char* name, std::vector<Value>& values, Read read) {
+    const YamlNode* node = take_list(name);
+    if (node == nullptr) return;
+    values.assign(node->items.size(), Value{});
+    for (std::size_t i = 0; i < values.size(); ++i)
+      read({node->items[i], prefix_ + name + "[" + std::to_string(i) + "]", problems_}, values[i]);
+  }
   const YamlNode* take(const char* name);
+  /// Null when the key is absent or holds something else, which is refused.
+  const YamlNode* take_list(const char* name);
 
   const YamlNode& map_;
   std::string prefix_;

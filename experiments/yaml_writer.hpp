@@ -42,6 +42,16 @@ class YamlWriter {
     explain(what);
     group(name, *nested);
   }
+  template <class Number>
+  void values(const char* name, const std::vector<Number>& numbers, const char* unit, Range range,
+              const char* what) {
+    const std::string suffix = std::string_view{unit} == "1" ? "" : std::string{" "} + unit;
+    line(name, in_brackets(numbers), std::string{what} + "; " + to_text(range) + suffix);
+  }
+  template <class Choice>
+  void values(const char* name, const std::vector<Choice>& choices, const char* what) {
+    line(name, in_brackets(choices), std::string{what} + "; " + choices_of(Choice{}));
+  }
   template <class Entry>
   void list(const char* name, const std::vector<Entry>& entries, const char* what) {
     explain(what);
@@ -57,6 +67,12 @@ class YamlWriter {
   [[nodiscard]] std::string take() { return std::move(text_); }
 
  private:
+  template <class Value>
+  static std::string in_brackets(const std::vector<Value>& values) {
+    std::string text;
+    for (const Value& value : values) text += (text.empty() ? "" : ", ") + to_text(value);
+    return "[" + text + "]";
+  }
   void explain(const std::string& comment) {
     if (explains_) text_ += indent_ + "# " + comment + "\n";
   }

@@ -1,0 +1,296 @@
+#include "experiments/campaign.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "experiments/closest_name.hpp"
+#include "experiments/parameter_text.hpp"
+#include "experiments/yaml_reader.hpp"
+#include "experiments/yaml_writer.hpp"
+
+namespace spf {
+namespace {
+
+bool is_plain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
+         c == '-';
+}
+
+/// FNV-1a, as hexadecimal digits.
+std::string hash_text(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  std::array<char, 16> digits;
+  const std::to_chars_result end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16);
+  const std::string shown{digits.data(), end.ptr};
+  return std::string(16 - shown.size(), '0') + shown;
+}
+
+/// Where the scenes of a cell come from, and what they are called.
+struct SceneSource {
+  std::string name;
+  std::string file;  ///< empty: a family, by its name
+};
+
+/// A method or variant that runs.
+struct Contender {
+  std::string name;
+  std::optional<Method> method;  ///< none: the scenario's own
+  const MethodVariant* variant = nullptr;
+  std::size_t index = 0;  ///< in its list
+};
+
+/// Makes the cells of a campaign, and says what is wrong with it by the places in its file.
+class CellMaker {
+ public:
+  CellMaker(const YamlNode& root, const Campaign& campaign, const std::filesystem::path& folder,
+            const std::vector<Setting>& scene_settings, InputProblems& problems)
+      : root_{root},
+        campaign_{campaign},
+        folder_{folder},
+        scene_settings_{scene_settings},
+        problems_{problems} {}
+
+  std::vector<Cell> make() {
+    const std::vector<SceneSource> scenes = scene_sources();
+    const std::vector<Contender> contenders = all_contenders();
+    check_names(contenders);
+    if (!problems_.empty()) return {};
+    const std::vector<Condition> none{Condition{}};
+    const std::vector<Condition>& conditions = campaign_.conditions.empty() ? none : campaign_.conditions;
+    for (std::size_t i = 0; i < conditions.size(); ++i)
+      for (const SceneSource& scene : scenes)
+        for (const std::optional<sim::NoiseModel>& noise : or_none(campaign_.noise))
+          for (const std::optional<double>& level : or_none(campaign_.levels))
+            for (const sim::TrackingMode tracking : {sim::TrackingMode::full, sim::TrackingMode::ideal})
+              for (const Contender& contender : contenders)
+                add({conditions[i], i, scene, noise, level, tracking, contender});
+    if (cells_.empty() && problems_.empty()) problems_.add(root_.place, "leaves no cell to run");
+    refuse_duplicates();
+    return std::move(cells_);
+  }
+
+ private:
+  struct Choice {
+    const Condition& condition;
+    std::size_t condition_index;
+    const SceneSource& scene;
+    std::optional<sim::NoiseModel> noise;
+    std::optional<double> level;
+    sim::TrackingMode tracking;
+    const Contender& contender;
+  };
+
+  template <class Value>
+  static std::vector<std::optional<Value>> or_none(const std::vector<Value>& values) {
+    if (values.empty()) return {std::nullopt};
+    return {values.begin(), values.end()};
+  }
+
+  [[nodiscard]] std::string place_of(const std::string& path) const {
+    return to_string(nearest_node(root_, path).place);
+  }
+  void refuse(const std::string& path, const std::string& sentence) {
+    const YamlNode& node = nearest_node(root_, path);
+    problems_.add(node.place,
+                  path + (node.kind == YamlKind::scalar ? " = " + shown(node) : "") + " " + sentence);
+  }
+
+  std::vector<SceneSource> scene_sources() {
+    std::vector<SceneSource> scenes;
+    for (const sim::Family family : campaign_.families) scenes.push_back({enum_name(family), ""});
+    for (const std::string& file : campaign_.scenarios)
+      scenes.push_back({std::filesystem::path{file}.stem().string(), (folder_ / file).string()});
+    if (scenes.empty()) problems_.add(root_.place, "names no scene: give families or scenarios");
+    return scenes;
+  }
+
+  std::vector<Contender> all_contenders() const {
+    std::vector<Contender> all;
+    for (std::size_t i = 0; i < campaign_.methods.size(); ++i)
+      all.push_back({enum_name(campaign_.methods[i]), campaign_.methods[i], nullptr, i});
+    for (std::size_t i = 0; i < campaign_.variants.size(); ++i)
+      all.push_back({campaign_.variants[i].name, campaign_.variants[i].method, &campaign_.variants[i], i});
+    if (all.empty()) all.push_back({"", std::nullopt, nullptr, 0});
+    return all;
+  }
+
+  void check_names(const std::vector<Contender>& contenders) {
+    std::vector<std::string> names;
+    for (const Contender& contender : contenders) {
+      const std::string path = contender.variant == nullptr
+                                   ? "methods[" + std::to_string(contender.index) + "]"
+                                   : "variants[" + std::to_string(contender.index) + "].name";
+      if (std::find(names.begin(), names.end(), contender.name) != names.end())
+        refuse(path, "is the name of another method of this campaign");
+      if (contender.variant != nullptr &&
+          (contender.name.empty() || !std::all_of(contender.name.begin(), contender.name.end(), is_plain)))
+        refuse(path, "must be letters, digits, dots, dashes and underscores");
+      names.push_back(contender.name);
+    }
+    if (campaign_.name.empty() || !std::all_of(campaign_.name.begin(), campaign_.name.end(), is_plain))
+      refuse("name", "must be letters, digits, dots, dashes and underscores");
+    for (std::size_t i = 0; i < campaign_.conditions.size(); ++i) check_condition(i, names);
+  }
+
+  void check_condition(std::size_t index, const std::vector<std::string>& names) {
+    const Condition& condition = campaign_.conditions[index];
+    const std::string path = "conditions[" + std::to_string(index) + "]";
+    if (condition.name.empty()) refuse(path + ".name", "must not be empty");
+    for (std::size_t other = 0; other < index; ++other)
+      if (campaign_.conditions[other].name == condition.name)
+        refuse(path + ".name", "is the name of another condition");
+    for (std::size_t i = 0; i < condition.methods.size(); ++i) {
+      if (std::find(names.begin(), names.end(), condition.methods[i]) != names.end()) continue;
+      const std::optional<std::string> meant = closest_name(condition.methods[i], names);
+      refuse(path + ".methods[" + std::to_string(i) + "]",
+             "is no method or variant of this campaign" + (meant ? "; did you mean " + *meant + "?" : ""));
+    }
+  }
+
+  [[nodiscard]] bool runs(const Choice& choice) const {
+    const std::vector<std::string>& methods = choice.condition.methods;
+    if (!methods.empty() && std::find(methods.begin(), methods.end(), choice.contender.name) == methods.end())
+      return false;
+    const std::vector<sim::TrackingMode>* modes = &campaign_.tracking;
+    if (choice.contender.variant != nullptr && !choice.contender.variant->tracking.empty())
+      modes = &choice.contender.variant->tracking;
+    // None named: the scenario's own, which `add` takes once, under the first of the two.
+    if (modes->empty()) return choice.tracking == sim::TrackingMode::full;
+    return std::find(modes->begin(), modes->end(), choice.tracking) != modes->end();
+  }
+
+  /// In the order in which they count: the axes, the campaign's own, variant, condition, command line.
+  [[nodiscard]] std::vector<Setting> settings_of(const Choice& choice) const {
+    std::vector<Setting> all;
+    if (root_.find("seed") != nullptr) all.push_back({"seed=" + to_text(campaign_.seed), place_of("seed")});
+    if (choice.contender.method)
+      all.push_back({std::string{"method="} + enum_name(*choice.contender.method), place_of("methods")});
+    if (choice.noise)
+      all.push_back({std::string{"noise.model="} + enum_name(*choice.noise), place_of("noise")});
+    if (choice.level) all.push_back({"noise.level=" + to_text(*choice.level), place_of("levels")});
+    const bool named = !campaign_.tracking.empty() ||
+                       (choice.contender.variant != nullptr && !choice.contender.variant->tracking.empty());
+    if (named)
+      all.push_back({std::string{"trial.tracking="} + enum_name(choice.tracking), place_of("tracking")});
+    const auto add_list = [&](const std::vector<std::string>& list, const std::string& path) {
+      for (std::size_t i = 0; i < list.size(); ++i)
+        all.push_back({list[i], place_of(path + "[" + std::to_string(i) + "]")});
+    };
+    add_list(campaign_.set, "set");
+    if (choice.contender.variant != nullptr)
+      add_list(choice.contender.variant->set, "variants[" + std::to_string(choice.contender.index) + "].set");
+    add_list(choice.condition.set, "conditions[" + std::to_string(choice.condition_index) + "].set");
+    all.insert(all.end(), scene_settings_.begin(), scene_settings_.end());
+    return all;
+  }
+
+  void add(const Choice& choice) {
+    if (!runs(choice)) return;
+    try {
+      const std::vector<Setting> settings = settings_of(choice);
+      Cell cell;
+      cell.study = choice.scene.file.empty()
+                       ? study_from_text("family: " + choice.scene.name + "\n", choice.scene.name, settings)
+                       : read_study(choice.scene.file, settings);
+      cell.setup = hash_text(to_yaml_text(cell.study));
+      cell.key = {choice.scene.name,
+                  choice.contender.name.empty() ? enum_name(cell.study.method) : choice.contender.name,
+                  enum_name(cell.study.simulation.noise.model),
+                  cell.study.simulation.noise.level,
+                  enum_name(cell.study.simulation.trial.tracking),
+                  cell.study.seed,
+                  0,
+                  choice.condition.name};
+      cells_.push_back(std::move(cell));
+    } catch (const InputError& error) {
+      for (const InputProblem& problem : error.problems().kept())
+        if (told_.insert(to_string(problem.place) + problem.sentence).second)
+          problems_.add(problem.place, problem.sentence);
+    }
+  }
+
+  void refuse_duplicates() {
+    std::set<std::string> names;
+    for (const Cell& cell : cells_)
+      if (!names.insert(cell_file_name(cell.key)).second)
+        return problems_.add(root_.place, "lists this cell twice: " + cell_text(cell.key));
+  }
+
+  const YamlNode& root_;
+  const Campaign& campaign_;
+  std::filesystem::path folder_;
+  const std::vector<Setting>& scene_settings_;
+  InputProblems& problems_;
+  std::vector<Cell> cells_;
+  std::set<std::string> told_;
+};
+
+CampaignPlan read_document(YamlNode root, const std::filesystem::path& folder,
+                           const std::vector<Setting>& settings, const std::vector<Setting>& scene_settings,
+                           InputProblems problems) {
+  if (root.kind == YamlKind::nothing) problems.throw_if_any();
+  for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
+  CampaignPlan plan;
+  read_parameters(root, plan.campaign, problems);
+  if (problems.empty()) plan.cells = CellMaker{root, plan.campaign, folder, scene_settings, problems}.make();
+  problems.throw_if_any();
+  return plan;
+}
+
+}  // namespace
+
+CampaignPlan read_campaign(const std::string& path, const std::vector<Setting>& settings,
+                           const std::vector<Setting>& scene_settings) {
+  InputProblems problems;
+  YamlNode root = read_yaml_file(path, problems);
+  return read_document(std::move(root), std::filesystem::path{path}.parent_path(), settings, scene_settings,
+                       std::move(problems));
+}
+
+CampaignPlan campaign_from_text(const std::string& text, const std::string& name,
+                                const std::filesystem::path& folder, const std::vector<Setting>& settings,
+                                const std::vector<Setting>& scene_settings) {
+  InputProblems problems;
+  YamlNode root = parse_yaml(text, name, problems);
+  return read_document(std::move(root), folder, settings, scene_settings, std::move(problems));
+}
+
+Campaign read_campaign_header(const std::string& path) {
+  InputProblems problems;
+  const YamlNode root = read_yaml_file(path, problems);
+  Campaign campaign;
+  read_parameters(root, campaign, problems);
+  problems.throw_if_any();
+  return campaign;
+}
+
+std::string to_yaml_text(const Campaign& campaign) {
+  return to_yaml(campaign);
+}
+
+std::string cell_file_name(const TrialKey& key) {
+  std::string name = key.family + "_" + key.method + "_" + key.noise + "_" + to_text(key.level) + "_" +
+                     key.tracking + (key.condition.empty() ? "" : "_" + key.condition);
+  std::string safe;
+  for (const char c : name) safe += is_plain(c) ? c : '-';
+  // Two names may differ in what a file name cannot show.
+  if (safe != name) safe += "_" + hash_text(name).substr(0, 4);
+  return safe + ".yaml";
+}
+
+bool same_cell(const TrialKey& a, const TrialKey& b) {
+  return std::tie(a.family, a.method, a.noise, a.level, a.tracking, a.condition) ==
+         std::tie(b.family, b.method, b.noise, b.level, b.tracking, b.condition);
+}
+
+std::string cell_text(const TrialKey& key) {
+  return key.family + ", " + key.method + ", " + key.noise + " noise at " + to_text(key.level) + " Sigma, " +
+         key.tracking + " tracking" + (key.condition.empty() ? "" : ", " + key.condition);
+}
+
+}  // namespace spf

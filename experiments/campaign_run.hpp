@@ -1,0 +1,47 @@
+// Runs the trials of a campaign, all cells from one pool of threads, so that the last threads never wait for
+// one slow cell; what to run, and which part of it, is a list.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "experiments/campaign.hpp"
+#include "experiments/trial_record.hpp"
+
+namespace spf {
+
+/// Part `index` of `count` equal parts; index counts from 1.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
+struct CampaignTrial {
+  int cell = 0;  ///< index into CampaignPlan::cells
+  int trial = 0;
+};
+
+/// The trials of a shard, trial by trial and within each cell by cell: an early stop leaves all cells equally
+/// far. Every trial is in exactly one of the `count` shards, and every cell is spread over all of them.
+[[nodiscard]] std::vector<CampaignTrial> trials_of(const CampaignPlan& plan, Shard shard = {});
+
+struct CampaignRequest {
+  std::vector<CampaignTrial> trials;
+  int jobs = 1;                   ///< threads
+  std::function<double()> clock;  ///< [s] steady, callable from any thread; none: nothing is timed
+  std::function<bool()> stop;     ///< asked often, when there is a clock; true drops the trials under way
+  /// Called after each trial, by one thread at a time, in the order in which they end. What it throws ends
+  /// the run and is thrown again by run_campaign.
+  std::function<void(const TrialRecord&)> finished;
+};
+
+/// Runs the trials. The records are the same for any number of threads, timings aside. Throws
+/// std::runtime_error, naming cell and trial, when a trial cannot be run.
+void run_campaign(const CampaignPlan& plan, const CampaignRequest& request);
+
+/// Index of the cell of a record; -1 when the plan has no such cell.
+[[nodiscard]] int cell_index(const CampaignPlan& plan, const TrialRecord& record);
+/// Puts records into the order of the table: by cell, then by trial.
+void sort_records(const CampaignPlan& plan, std::vector<TrialRecord>& records);
+
+}  // namespace spf
