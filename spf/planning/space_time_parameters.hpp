@@ -16,13 +16,16 @@ struct SpaceTimeParameters {
   double risk_fading = 0.7;            ///< [s] a risk this far ahead counts 1/e: there is time to plan again
   double accepted_risk = 0.02;         ///< [s] the direct way is taken at once below this
   double keep_bonus = 0.05;            ///< [s] in favour of the plan under way
-  double margin = 0.1;                 ///< [m] added to the radii towards everything that moves
+  double margin = 0.1;                 ///< [m] added to the radii towards moving obstacles
   double static_margin = 0.02;         ///< [m] added to the robot's radius towards the static map
   double static_sigma = 0.02;          ///< [m] softness of static surfaces
   double sigma_floor = 0.03;           ///< [m] smallest uncertainty of a moving obstacle
   double peer_sigma = 0.02;            ///< [m] uncertainty of a peer's plan now
   double peer_sigma_growth = 0.08;     ///< [m/s] and its growth: peers plan again
-  double lower_priority_weight = 0.5;  ///< [1] weight of the risk with peers that have to yield to us
+  double standing_peer_growth = 0.25;  ///< [1] of that growth for a peer that stands
+  double peer_margin = 0.05;           ///< [m] added to the radii towards peers
+  double peer_risk_fading = 0.4;       ///< [s] as risk_fading, for peers: they plan around each other
+  double lower_priority_weight = 0.3;  ///< [1] weight of the risk with peers that have to yield to us
   double renewal = 1.0;                ///< [s] a plan under way is kept at most this long
   bool smoothing = true;               ///< the chosen way is made smooth by the optimiser
   int smoothing_evaluations = 40;      ///< [1] cost evaluations of that at most
@@ -45,7 +48,7 @@ struct SpaceTimeParameters {
     visit("accepted_risk", self.accepted_risk, "s", Range{0.0, 100.0},
           "the direct way is taken at once when its risk costs less");
     visit("keep_bonus", self.keep_bonus, "s", Range{0.0, 10.0}, "bonus of the plan under way");
-    visit("margin", self.margin, "m", Range{0.0, 2.0}, "added to the radii towards everything that moves");
+    visit("margin", self.margin, "m", Range{0.0, 2.0}, "added to the radii towards moving obstacles");
     visit("static_margin", self.static_margin, "m", Range{0.0, 2.0},
           "added to the robot's radius towards the static map");
     visit("static_sigma", self.static_sigma, "m", Range{0.001, 1.0}, "softness of static surfaces");
@@ -55,6 +58,11 @@ struct SpaceTimeParameters {
           "uncertainty of a peer's broadcast plan now");
     visit("peer_sigma_growth", self.peer_sigma_growth, "m/s", Range{0.0, 2.0},
           "growth of that uncertainty, since peers plan again");
+    visit("standing_peer_growth", self.standing_peer_growth, "1", Range{0.0, 10.0},
+          "part of that growth for a peer that stands");
+    visit("peer_margin", self.peer_margin, "m", Range{0.0, 2.0}, "added to the radii towards peers");
+    visit("peer_risk_fading", self.peer_risk_fading, "s", Range{0.05, 20.0},
+          "as risk_fading, for peers, who avoid each other");
     visit("lower_priority_weight", self.lower_priority_weight, "1", Range{0.0, 1.0},
           "weight of the risk with peers that yield to this robot");
     visit("renewal", self.renewal, "s", Range{0.1, 2.0}, "a plan under way is kept at most this long");

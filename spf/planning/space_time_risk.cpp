@@ -23,7 +23,9 @@ SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot
       max_speed_{max_speed},
       steps_{std::min(kMaxSteps, static_cast<int>(std::lround(parameters.horizon / parameters.step)))} {
   for (int k = 0; k <= kMaxSteps; ++k) {
-    fading_[static_cast<std::size_t>(k)] = std::exp(-k * parameters.step / parameters.risk_fading);
+    const auto at = static_cast<std::size_t>(k);
+    fading_[at] = std::exp(-k * parameters.step / parameters.risk_fading);
+    peer_fading_[at] = std::exp(-k * parameters.step / parameters.peer_risk_fading);
   }
   entities_.resize(kMaxEntities);
   order_.reserve(256);
@@ -93,13 +95,15 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   const bool yields =
       peer.robot_id > request.world.robot_id && peer.state == PeerState::moving && !peer.expired;
   entity.weight = yields ? parameters_.lower_priority_weight : 1.0;
-  entity.radius = robot_radius_ + peer.radius + peer.growth + parameters_.margin;
+  entity.radius = robot_radius_ + peer.radius + peer.growth + parameters_.peer_margin;
+  // One that stands moves off only when it has to dodge or to go on.
+  const bool stands = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
+  const double growth = parameters_.peer_sigma_growth * (stands ? parameters_.standing_peer_growth : 1.0);
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double ahead = k * parameters_.step;
     entity.mean_world[at] = peer.position(request.time + ahead);
-    entity.sigma[at] =
-        std::hypot(parameters_.peer_sigma + parameters_.peer_sigma_growth * ahead, peer.position_sigma);
+    entity.sigma[at] = std::hypot(parameters_.peer_sigma + growth * ahead, peer.position_sigma);
   }
   finish(entity, request.position_sigma);
 }
@@ -108,8 +112,8 @@ void SpaceTimeRisk::finish(Entity& entity, double own_sigma) {
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
     entity.sigma[at] = std::hypot(entity.sigma[at], own_sigma);
-    entity.size_factor[at] =
-        std::erf(entity.radius / entity.sigma[at] * kSqrtHalf) * fading_[at] * entity.weight;
+    entity.size_factor[at] = std::erf(entity.radius / entity.sigma[at] * kSqrtHalf) *
+                             (entity.is_peer ? peer_fading_ : fading_)[at] * entity.weight;
     entity.reach[at] = entity.radius + kNegligibleSigmas * entity.sigma[at];
   }
 }

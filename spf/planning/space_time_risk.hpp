@@ -65,6 +65,7 @@ class SpaceTimeRisk {
   double max_speed_;
   int steps_;
   std::array<double, kMaxSteps + 1> fading_;
+  std::array<double, kMaxSteps + 1> peer_fading_;
   std::vector<Entity> entities_;  // capacity kMaxEntities, allocated once
   std::vector<std::pair<double, int>> order_;
   int entity_count_ = 0;
