@@ -138,6 +138,41 @@ TEST(Families, FieldHasEqualDensityAndGoalsInReach) {
   }
 }
 
+TEST(Families, SimulationRobotIsLargerThanThePlatforms) {
+  EXPECT_EQ(family_setup(Family::t2).robot.wheel_arm, 0.2);
+  EXPECT_EQ(family_setup(Family::p8).robot.wheel_arm, 0.04);
+}
+
+TEST(Families, RobotsStartAtRestFacingTheirGoals) {
+  for (const auto& [family, name] : EnumNames<Family>::values) {
+    SCOPED_TRACE(name);
+    for (const RobotTask& task : scene(family, 10000).robots) {
+      const Eigen::Vector2d way = task.goal_world - task.start.position_world;
+      const Eigen::Vector2d facing{std::cos(task.start.heading), std::sin(task.start.heading)};
+      EXPECT_NEAR(facing.dot(way.normalized()), 1.0, 1e-12);
+    }
+  }
+}
+
+TEST(Families, PlatformMirrorsStartsAndHasSeamsBesideTheMiddle) {
+  const Scenario scenario = scene(Family::p8, 10000);
+  ASSERT_TRUE(scenario.border);
+  const Eigen::Vector2d size = scenario.border->high - scenario.border->low;
+  EXPECT_NEAR(size.x(), 1.374, 1e-12);
+  EXPECT_NEAR(size.y(), 2.432, 1e-12);
+  for (const RobotTask& task : scenario.robots) {
+    EXPECT_EQ(task.goal_world.x(), task.start.position_world.x());
+    EXPECT_EQ(task.goal_world.y(), -task.start.position_world.y());
+    EXPECT_NEAR(std::abs(task.goal_world.y()), 0.5 * 2.432 - 0.12, 1e-12);
+  }
+  ASSERT_EQ(scenario.seams.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double y = (i == 0 ? -1.0 : 1.0) * 2.432 / 6.0;
+    EXPECT_LT((scenario.seams[i].from - Eigen::Vector2d{-0.687, y}).norm(), 1e-12);
+    EXPECT_LT((scenario.seams[i].to - Eigen::Vector2d{0.687, y}).norm(), 1e-12);
+  }
+}
+
 TEST(Families, TooMuchForThePlaceIsAnError) {
   FamilySetup setup = family_setup(Family::t2);
   setup.layout.squares = 200;

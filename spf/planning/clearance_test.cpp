@@ -209,6 +209,9 @@ TEST(Clearance, TreatsObstaclesByTheDynamicModel) {
   const Eigen::Vector2d behind = now - Eigen::Vector2d{1.5, 0.0};
   EXPECT_LT(clearance(DynamicModel::probability_field, ahead, 3.0), 0.0);
   EXPECT_GT(clearance(DynamicModel::probability_field, behind, 0.0), 0.0);
+  for (const Eigen::Vector2d& place : {ahead, behind})
+    EXPECT_EQ(clearance(DynamicModel::probability_field, place, 0.0),
+              clearance(DynamicModel::probability_field, place, 3.0));
 }
 
 TEST(Limits, SeeSpeedAccelerationAndWheels) {

@@ -37,7 +37,7 @@ class FieldGuidance {
  public:
   /// `safety_distance`: d_saf of eq. 10. `least_sideways`: sine of the least angle between a guide direction
   /// and the line of symmetry. Along the line no side is gained, and a point on the obstacle's axis would
-  /// never leave it (paper_notes).
+  /// never leave it (paper_notes 37).
   FieldGuidance(const FieldParameters& parameters, double safety_distance, double least_sideways);
 
   /// Conflicts of the nodes 1 .. last_node, once per region, in the order of their first node.

@@ -207,6 +207,26 @@ TEST(FieldPlanner, TriesBothSidesOfAMovingDiscAndKeepsOutOfItsField) {
   }
 }
 
+TEST(FieldPlanner, CountsEveryRunOfTheOptimiser) {
+  FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
+  PlanResult result;
+  Scene open;
+  open.finish({-3.5, 0.0}, {5.0, 0.0});
+  planner.plan(open.request, open.guide, result);
+  ASSERT_EQ(result.outcome, PlanOutcome::success);
+  EXPECT_EQ(result.stats.optimiser_calls, 1);
+  EXPECT_GT(result.stats.inner_iterations, 1);
+  EXPECT_GE(result.stats.evaluations, result.stats.inner_iterations);
+  // A disc in the way: the first run meets it, then each side is run.
+  Scene blocked;
+  blocked.tracks.push_back(make_track(1, {1.0, 0.05}, {0.0, 0.0}));
+  blocked.finish({-3.5, 0.0}, {5.0, 0.0});
+  planner.plan(blocked.request, blocked.guide, result);
+  ASSERT_EQ(result.outcome, PlanOutcome::success);
+  EXPECT_GE(result.stats.optimiser_calls, 2);
+  EXPECT_GT(result.stats.inner_iterations, result.stats.optimiser_calls);
+}
+
 TEST(FieldPlanner, KeepsItsSideWhenBothAreAlike) {
   Scene scene;
   scene.tracks.push_back(make_track(1, {1.0, 0.0}, {0.0, 0.0}));
