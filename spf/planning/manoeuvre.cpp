@@ -31,8 +31,12 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const Guide
                               const RollOutSettings& settings) {
   const Eigen::Vector2d direction = guide.direction(position_world);
   const double distance = guide.cost_to_go(position_world);
-  // Stoppable at the limit, and not beyond the goal within the step.
-  const double stoppable = std::sqrt(2.0 * settings.max_acceleration * distance);
+  // The velocity v that is reached at the end of a step: step * v and the way to stop from v,
+  // v^2 / (2 acceleration), together are the distance. And not beyond the goal within the step.
+  const double acceleration = settings.max_acceleration;
+  const double stoppable =
+      acceleration *
+      (std::sqrt(settings.step * settings.step + 2.0 * distance / acceleration) - settings.step);
   const double speed = std::min({settings.max_speed, stoppable, distance / (2.0 * settings.step)});
   return direction * speed;
 }
