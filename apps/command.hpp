@@ -35,6 +35,7 @@ struct ScenarioOptions {
 
 Verb add_run(CLI::App& program);
 Verb add_experiment(CLI::App& program);
+Verb add_report(CLI::App& program);
 Verb add_check(CLI::App& program);
 Verb add_parameters(CLI::App& program);
 

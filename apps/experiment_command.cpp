@@ -16,6 +16,7 @@
 #include "apps/run_summary.hpp"
 #include "apps/version.hpp"
 #include "experiments/campaign.hpp"
+#include "experiments/campaign_pictures.hpp"
 #include "experiments/campaign_run.hpp"
 #include "experiments/closest_name.hpp"
 #include "experiments/input_problem.hpp"
@@ -165,6 +166,7 @@ class Experiment {
       throw OutputError{std::string{error.what()} + "\n" + std::to_string(records_.size()) +
                         " trials are kept; make room, then go on with --resume"};
     }
+    if (folder_) draw_pictures();
     progress_.end();
     finish(wanted.size());
     if (!interrupted()) return kDone;
@@ -239,6 +241,23 @@ class Experiment {
     progress_.show(plan_.campaign.name + ": trial " + std::to_string(done) + " of " + std::to_string(all) +
                    " (" + fixed(100.0 * static_cast<double>(done) / static_cast<double>(all), 0) + " %), " +
                    clock_text(left) + " left");
+  }
+
+  /// Of the first trial of every cell, where the campaign asks for them and this part has that trial.
+  void draw_pictures() {
+    if (!has_pictures(plan_.campaign)) return;
+    std::error_code error;
+    fs::create_directories(folder_->file("pictures"), error);
+    if (error) throw OutputError{folder_->file("pictures").string() + ": cannot be made: " + error.message()};
+    for (const Cell& cell : plan_.cells) {
+      const bool ours = std::any_of(records_.begin(), records_.end(), [&](const TrialRecord& record) {
+        return same_cell(record.key, cell.key) && record.key.trial == plan_.campaign.first;
+      });
+      if (!ours || interrupted()) continue;
+      progress_.show("pictures of " + cell_text(cell.key));
+      for (const StoredPicture& picture : pictures_of(plan_.campaign, cell, plan_.campaign.first))
+        write_file_atomically(folder_->file("pictures") / picture.name, picture.svg);
+    }
   }
 
   void finish(std::size_t asked) {

@@ -26,13 +26,15 @@ int run_program(int argc, char** argv) {
       "  spf run scenarios/f7.yaml --out results/f7\n"
       "  spf run scenarios/t2.yaml --trials 50 --noise walk --level 1 --jobs 2\n"
       "  spf experiment table2 --trials 50 --out results/table2\n"
+      "  spf report results/table2\n"
       "  spf check scenarios/*.yaml\n"
       "  spf parameters | less\n"
       "Exit status: 0 done, 1 ran but failed what it checks, 2 bad usage or input, 130 interrupted.\n"
       "spf VERB --help explains each verb.");
   program.failure_message(CLI::FailureMessage::simple);
   const std::vector<spf::Verb> verbs{spf::add_run(program), spf::add_experiment(program),
-                                     spf::add_check(program), spf::add_parameters(program)};
+                                     spf::add_report(program), spf::add_check(program),
+                                     spf::add_parameters(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

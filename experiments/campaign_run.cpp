@@ -18,6 +18,27 @@ namespace {
 /// Ends the trial under way from inside, when told to stop.
 struct Stopped {};
 
+/// Planning calls by what they did: most only find that the plan is still good.
+void time_parts(const sim::Recording& recording, TrialRecord& record) {
+  for (const sim::RecordedPlan& plan : recording.plans) {
+    const PlanStats& stats = plan.stats;
+    if (!(plan.plan_ms > 0.0) || stats.optimiser_calls + stats.manoeuvres == 0) continue;
+    record.new_plan_time.add(1e-3 * plan.plan_ms);
+    if (stats.optimiser_calls > 0) record.optimiser_time.add(1e-3 * plan.plan_ms / stats.optimiser_calls);
+  }
+}
+
+/// Commands and true speeds; unknown where nothing drives wheels (ideal tracking).
+double wheel_share(const sim::Recording& recording) {
+  if (recording.scenario.simulation.trial.tracking == sim::TrackingMode::ideal) return kNotKnown;
+  double most = 0.0;
+  for (const sim::RecordedFrame& frame : recording.frames)
+    for (const sim::RecordedRobot& robot : frame.robots)
+      most = std::max(
+          {most, robot.wheel_speeds.cwiseAbs().maxCoeff(), robot.wheel_commands.cwiseAbs().maxCoeff()});
+  return most / recording.scenario.robot.max_wheel_speed;
+}
+
 TrialRecord run_trial(const Cell& cell, int trial, const CampaignRequest& request) {
   sim::SimulationOptions options;
   options.record = true;  // for the cause of a failure; it is dropped with the result
@@ -35,6 +56,8 @@ TrialRecord run_trial(const Cell& cell, int trial, const CampaignRequest& reques
   record.key.trial = trial;
   record.setup = cell.setup;
   record.cause = cause_of(result);
+  record.wheel_share = wheel_share(*result.recording);
+  time_parts(*result.recording, record);
   return record;
 }
 

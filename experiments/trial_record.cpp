@@ -107,6 +107,9 @@ TrialRecord record_from_json(const Json& json) {
   record.key.trial = json.at("trial").get<int>();
   record.key.condition = json.value("condition", "");
   record.setup = json.value("setup", "");
+  if (json.contains("new_plan_time")) record.new_plan_time = histogram_at(json, "new_plan_time");
+  if (json.contains("optimiser_time")) record.optimiser_time = histogram_at(json, "optimiser_time");
+  if (json.contains("wheel_share")) record.wheel_share = number_at(json, "wheel_share");
   if (json.contains("cause")) record.cause = cause_from_json(json.at("cause"));
   record.outcome = json.at("outcome").get<std::string>();
   record.failure = json.at("failure").get<std::string>();
@@ -152,6 +155,9 @@ std::string to_json_line(const TrialRecord& record) {
   // Only campaigns have these.
   if (!record.key.condition.empty()) json["condition"] = record.key.condition;
   if (!record.setup.empty()) json["setup"] = record.setup;
+  if (std::isfinite(record.wheel_share)) json["wheel_share"] = record.wheel_share;
+  if (record.new_plan_time.count() > 0) json["new_plan_time"] = to_json(record.new_plan_time);
+  if (record.optimiser_time.count() > 0) json["optimiser_time"] = to_json(record.optimiser_time);
   if (record.cause) json["cause"] = to_json(*record.cause);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

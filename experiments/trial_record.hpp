@@ -75,12 +75,17 @@ struct TrialRecord {
   std::vector<RobotRecord> robots;
   std::string failure;               ///< why it failed, in words; empty after a success
   std::optional<CauseRecord> cause;  ///< of a failed trial of a campaign
-  std::string digest;                ///< hash over the bits of all positions, in hexadecimal digits
+  double wheel_share =
+      kNotKnown;       ///< [1] of a campaign: largest wheel speed over its limit, in frames of 0.1 s
+  std::string digest;  ///< hash over the bits of all positions, in hexadecimal digits
 
   // Timings: the only fields that differ between runs.
   DurationHistogram plan_time;     ///< [s] of each planning call
   DurationHistogram control_time;  ///< [s] of each control tick
   double wall_time = 0.0;          ///< [s] of the whole trial
+  // Of a campaign:
+  DurationHistogram new_plan_time;   ///< [s] of the planning calls that looked for a new plan
+  DurationHistogram optimiser_time;  ///< [s] of each optimiser call: such a planning call over its number
 };
 
 /// One line of JSON without its line feed. Unknown numbers read null.

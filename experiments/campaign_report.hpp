@@ -1,0 +1,27 @@
+// A campaign's report: the tables as the paper prints them with its figures beside ours, paired comparisons,
+// charts, and why trials failed. As sections of an HTML page and as Markdown.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/campaign_parts.hpp"
+#include "report/page_html.hpp"
+
+namespace spf {
+
+/// Pages of trials that were run again: (index of the cell, trial) -> address beside the report.
+using ReplayLinks = std::map<std::pair<std::size_t, int>, std::string>;
+
+[[nodiscard]] std::vector<PageSection> report_sections(const CampaignParts& parts,
+                                                       const ReplayLinks& replays);
+
+/// The tables of the report as Markdown.
+[[nodiscard]] std::string report_markdown(const CampaignParts& parts);
+
+/// The command that runs a trial of a cell again and shows it; empty when its scenario file is missing.
+[[nodiscard]] std::string replay_command(const CampaignParts& parts, std::size_t cell, int trial);
+
+}  // namespace spf
