@@ -6,21 +6,23 @@
 namespace spf {
 
 struct SpaceTimeParameters {
-  double horizon = 3.0;                ///< [s] looked ahead
-  double step = 0.1;                   ///< [s] between samples of a roll-out
-  int headings = 16;                   ///< [1] directions of the sidesteps
-  double slow_fraction = 0.5;          ///< [1] second speed of the sidesteps, as a part of max_speed
-  double short_sidestep = 0.7;         ///< [s] then towards the goal, or brake
-  double long_sidestep = 1.6;          ///< [s] then towards the goal
-  double risk_price = 1000.0;          ///< [s] travel time worth one certain contact
-  double risk_fading = 0.7;            ///< [s] a risk this far ahead counts 1/e: there is time to plan again
-  double accepted_risk = 0.02;         ///< [s] the direct way is taken at once below this
-  double keep_bonus = 0.05;            ///< [s] in favour of the plan under way
-  double margin = 0.1;                 ///< [m] added to the radii towards moving obstacles
-  double static_margin = 0.02;         ///< [m] added to the robot's radius towards the static map
-  double static_sigma = 0.02;          ///< [m] softness of static surfaces
-  double sigma_floor = 0.03;           ///< [m] smallest uncertainty of a moving obstacle
-  double peer_sigma = 0.02;            ///< [m] uncertainty of a peer's plan now
+  double horizon = 3.0;         ///< [s] looked ahead
+  double step = 0.1;            ///< [s] between samples of a roll-out
+  int headings = 16;            ///< [1] directions of the sidesteps
+  double slow_fraction = 0.5;   ///< [1] second speed of the sidesteps, as a part of max_speed
+  double short_sidestep = 0.7;  ///< [s] then towards the goal, or brake
+  double long_sidestep = 1.6;   ///< [s] then towards the goal
+  double risk_price = 1000.0;   ///< [s] travel time worth one certain contact
+  double risk_fading = 0.7;     ///< [s] a risk this far ahead counts 1/e: there is time to plan again
+  double accepted_risk = 0.02;  ///< [s] the direct way is taken at once below this
+  double keep_bonus = 0.05;     ///< [s] in favour of the plan under way
+  double stand_bonus = 0.3;     ///< [s] in favour of standing while slow: a blocked robot shall not fidget
+  double early_progress = 0.3;  ///< [1] weight of the way to go at instants before the horizon
+  double margin = 0.1;          ///< [m] added to the radii towards moving obstacles
+  double static_margin = 0.02;  ///< [m] added to the robot's radius towards the static map
+  double static_sigma = 0.02;   ///< [m] softness of static surfaces
+  double sigma_floor = 0.03;    ///< [m] smallest uncertainty of a moving obstacle
+  double peer_sigma = 0.02;     ///< [m] uncertainty of a peer's plan now
   double peer_sigma_growth = 0.08;     ///< [m/s] and its growth: peers plan again
   double standing_peer_growth = 0.25;  ///< [1] of that growth for a peer that stands
   double peer_margin = 0.05;           ///< [m] added to the radii towards peers
@@ -48,6 +50,10 @@ struct SpaceTimeParameters {
     visit("accepted_risk", self.accepted_risk, "s", Range{0.0, 100.0},
           "the direct way is taken at once when its risk costs less");
     visit("keep_bonus", self.keep_bonus, "s", Range{0.0, 10.0}, "bonus of the plan under way");
+    visit("stand_bonus", self.stand_bonus, "s", Range{0.0, 10.0},
+          "bonus of standing while slow, so that a blocked robot does not fidget");
+    visit("early_progress", self.early_progress, "1", Range{0.0, 10.0},
+          "weight of the way still to go at instants before the horizon: no putting off");
     visit("margin", self.margin, "m", Range{0.0, 2.0}, "added to the radii towards moving obstacles");
     visit("static_margin", self.static_margin, "m", Range{0.0, 2.0},
           "added to the robot's radius towards the static map");

@@ -7,6 +7,8 @@
 namespace spf {
 namespace {
 
+constexpr int kProgressSamples = 3;
+constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter ways are not smoothed
 constexpr double kSqrtHalf = 0.70710678118654752440;
 
 RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
@@ -34,6 +36,14 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   const Eigen::Vector2d wanted = goal_velocity(tail, guide, settings_);
   score.time = settings_.step * roll_out.steps + guide.cost_to_go(tail) / settings_.max_speed +
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
+  // Progress now is better than the same progress promised for later, which would be promised again and
+  // again: a part of the way still to go counts at some instants in between, too.
+  double between = 0.0;
+  for (int i = 1; i <= kProgressSamples; ++i) {
+    const auto at = static_cast<std::size_t>(i * roll_out.steps / (kProgressSamples + 1));
+    between += guide.cost_to_go(roll_out.position_world[at]);
+  }
+  score.time += parameters_.early_progress * between / (kProgressSamples * settings_.max_speed);
   if (score.time > enough) return score;
 
   // Static surfaces: the chance that the own position error reaches one. It does not fade: a wall will still
@@ -45,6 +55,11 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   for (int k = 1; k <= roll_out.steps; ++k) {
     least = std::min(least, map.distance(roll_out.position_world[static_cast<std::size_t>(k)]));
   }
+  // The way must not end where it could not stop, or a blocked robot would take run after run at what blocks
+  // it.
+  const Eigen::Vector2d& velocity = roll_out.velocity_world[end];
+  const Eigen::Vector2d stop = tail + velocity * (velocity.norm() / (2.0 * settings_.max_acceleration));
+  least = std::min({least, map.distance(0.5 * (tail + stop)), map.distance(stop)});
   const double clearance = least - wanted_clearance;
   // Deeper is worse without end, so that a robot inside the margin is led out of it.
   const double depth = std::max(0.0, -clearance) / wanted_clearance;
@@ -54,16 +69,17 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   score.risk = static_chance * parameters_.risk_price;
   if (left < 0.0) return score;
   score.risk +=
-      risk_.along(roll_out.position_world, roll_out.steps, left, &score.worst) * parameters_.risk_price;
+      risk_.along(roll_out.position_world, roll_out.steps, stop, left, &score.worst) * parameters_.risk_price;
   return score;
 }
 
 void SpaceTimePlanner::consider(const Manoeuvre& manoeuvre, const PlanRequest& request,
-                                const GuidePath& guide, PlanResult& result, bool keep) {
+                                const GuidePath& guide, PlanResult& result, bool keep, double bonus) {
   roll_out(manoeuvre, request.head, guide, settings_, trial_);
   ++result.stats.manoeuvres;
   const double enough = keep ? std::numeric_limits<double>::infinity() : best_score_.total();
-  const Score trial_score = score(trial_, request, guide, enough);
+  Score trial_score = score(trial_, request, guide, enough + bonus);
+  trial_score.time -= bonus;
   if (keep) keep_candidate(trial_, Candidate::Kind::manoeuvre, trial_score, request, result);
   if (trial_score.total() >= best_score_.total()) return;
   best_ = trial_;
@@ -71,13 +87,17 @@ void SpaceTimePlanner::consider(const Manoeuvre& manoeuvre, const PlanRequest& r
   best_is_previous_ = false;
 }
 
-/// Steps of a trajectory, from one time to another, as a roll-out.
-void SpaceTimePlanner::sample(const Trajectory& trajectory, double from, double until) {
-  trial_.steps = std::min(settings_.steps, static_cast<int>((until - from) / settings_.step + 1e-6));
+/// A trajectory as a roll-out over the whole horizon: it is driven until `drive_end`, then its velocity is
+/// held instead of braking, so that plans of different age are compared over the same time.
+void SpaceTimePlanner::sample(const Trajectory& trajectory, double from, double drive_end) {
+  trial_.steps = settings_.steps;
+  const FlatState last = trajectory.state(drive_end);
   for (int k = 0; k <= trial_.steps; ++k) {
-    const FlatState state = trajectory.state(from + k * settings_.step);
-    trial_.position_world[static_cast<std::size_t>(k)] = state.position_world;
-    trial_.velocity_world[static_cast<std::size_t>(k)] = state.velocity_world;
+    const auto at = static_cast<std::size_t>(k);
+    const double time = from + k * settings_.step;
+    const FlatState state = time < drive_end ? trajectory.state(time) : last;
+    trial_.position_world[at] = state.position_world + std::max(0.0, time - drive_end) * state.velocity_world;
+    trial_.velocity_world[at] = state.velocity_world;
   }
 }
 
@@ -86,8 +106,8 @@ void SpaceTimePlanner::consider_previous(const PlanRequest& request, const Guide
   const Trajectory* committed = request.committed;
   if (committed == nullptr || committed->empty() || committed->start_time() != plan_start_) return;
   if (request.time > plan_start_ + parameters_.renewal) return;
+  if (drive_end_ - request.time < 0.3 * settings_.step * settings_.steps) return;
   sample(*committed, request.time, drive_end_);
-  if (trial_.steps < settings_.steps / 2) return;
   Score previous = score(trial_, request, guide, std::numeric_limits<double>::infinity());
   previous.time -= parameters_.keep_bonus;
   if (keep) keep_candidate(trial_, Candidate::Kind::previous, previous, request, result);
@@ -140,10 +160,13 @@ void SpaceTimePlanner::plan(const PlanRequest& request, const GuidePath& guide, 
       const SpaceTimeRisk::Entity& entity = risk_.entity(direct_score.worst);
       (entity.is_peer ? result.blocking_peer : result.blocking_track) = entity.id;
     }
-    consider({still, 0.0, Manoeuvre::Then::brake}, request, guide, result, keep_candidates);
+    const bool slow = request.head.velocity_world.norm() < 0.3 * robot_.max_speed;
+    consider({still, 0.0, Manoeuvre::Then::brake}, request, guide, result, keep_candidates,
+             slow ? parameters_.stand_bonus : 0.0);
     consider({still, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, guide, result,
              keep_candidates);
-    consider({still, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, guide, result, keep_candidates);
+    consider({still, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, guide, result,
+             keep_candidates);
     consider_sidesteps(request, guide, result, keep_candidates);
   }
   // 4. The best of them, made smooth, is the plan.
@@ -163,11 +186,14 @@ void SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind k
 bool SpaceTimePlanner::smooth_best(const PlanRequest& request, const GuidePath& guide, PlanResult& result,
                                    bool keep) {
   if (!parameters_.smoothing) return false;
+  // Standing is smooth as it is; optimised, it would lean away from the risk and back again.
+  const Eigen::Vector2d& tail = best_.position_world[static_cast<std::size_t>(best_.steps)];
+  if ((tail - best_.position_world[0]).norm() < kLeastSmoothed * robot_.max_speed) return false;
   if (!smoother_.smooth(best_, request, risk_, settings_, smooth_, result.stats)) return false;
   const double braking = best_.velocity_world[static_cast<std::size_t>(best_.steps)].norm();
   const double drive_end = smooth_.end_time() - (braking > 1e-6 ? braking / settings_.max_acceleration : 0.0);
+  if (drive_end - request.time < 0.5 * settings_.step * settings_.steps) return false;
   sample(smooth_, request.time, drive_end);
-  if (trial_.steps < settings_.steps / 2) return false;
   const double enough = best_score_.total() + parameters_.smoothing_tolerance;
   const Score smooth_score =
       score(trial_, request, guide, keep ? std::numeric_limits<double>::infinity() : enough);

@@ -34,7 +34,7 @@ class SpaceTimePlanner {
   [[nodiscard]] Score score(const RollOut& roll_out, const PlanRequest& request, const GuidePath& guide,
                             double enough) const;
   void consider(const Manoeuvre& manoeuvre, const PlanRequest& request, const GuidePath& guide,
-                PlanResult& result, bool keep);
+                PlanResult& result, bool keep, double bonus = 0.0);
   void consider_previous(const PlanRequest& request, const GuidePath& guide, PlanResult& result, bool keep);
   void consider_sidesteps(const PlanRequest& request, const GuidePath& guide, PlanResult& result, bool keep);
   void keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,

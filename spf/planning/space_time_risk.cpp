@@ -77,6 +77,7 @@ void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& t
   Entity& entity = *next_entity();
   entity.id = track.id;
   entity.is_peer = false;
+  entity.stands = false;
   entity.weight = 1.0;
   entity.radius = robot_radius_ + track.state.radius + parameters_.margin;
   for (int k = 0; k <= steps_; ++k) {
@@ -98,6 +99,7 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   entity.radius = robot_radius_ + peer.radius + peer.growth + parameters_.peer_margin;
   // One that stands moves off only when it has to dodge or to go on.
   const bool stands = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
+  entity.stands = stands && !peer.expired;
   const double growth = parameters_.peer_sigma_growth * (stands ? parameters_.standing_peer_growth : 1.0);
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
@@ -127,13 +129,14 @@ double SpaceTimeRisk::chance(const Entity& entity, int step, const Eigen::Vector
 }
 
 double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
-                            double enough, int* worst) const {
+                            const Eigen::Vector2d& stop_world, double enough, int* worst) const {
   double sum = 0.0;
   double largest = 0.0;
   if (worst != nullptr) *worst = -1;
   for (int i = 0; i < entity_count_; ++i) {
     const Entity& entity = entities_[static_cast<std::size_t>(i)];
-    double peak = 0.0;
+    double peak = chance(entity, steps, stop_world);
+    if (entity.stands) peak /= peer_fading_[static_cast<std::size_t>(steps)];
     for (int k = 1; k <= steps; ++k) {
       if (entity.size_factor[static_cast<std::size_t>(k)] <= peak) continue;  // cannot exceed the peak
       peak = std::max(peak, chance(entity, k, positions[static_cast<std::size_t>(k)]));

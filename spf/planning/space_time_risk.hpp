@@ -27,6 +27,8 @@ class SpaceTimeRisk {
   struct Entity {
     int id = -1;
     bool is_peer = false;
+    bool stands =
+        false;  ///< a peer that stands will still be there at the end: the risk of the end does not fade
     double weight = 1.0;                                    ///< [1]
     double radius = 0.0;                                    ///< [m] both radii and the margin
     std::array<Eigen::Vector2d, kMaxSteps + 1> mean_world;  ///< [m]
@@ -49,10 +51,11 @@ class SpaceTimeRisk {
   /// Faded and weighted chance of contact at one step with one entity, in [0, 1].
   [[nodiscard]] double chance(const Entity& entity, int step, const Eigen::Vector2d& position_world) const;
 
-  /// Sum over entities of the largest faded chance along positions[0..steps]; stops counting once the sum
-  /// exceeds `enough`. `worst` receives the index of the entity that contributes most, -1 for none.
+  /// Sum over entities of the largest faded chance along positions[1..steps], and at the place where the
+  /// robot would stand if it braked from there, at the last step's time; stops counting once the sum exceeds
+  /// `enough`. `worst` receives the index of the entity that contributes most, -1 for none.
   [[nodiscard]] double along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
-                             double enough, int* worst = nullptr) const;
+                             const Eigen::Vector2d& stop_world, double enough, int* worst = nullptr) const;
 
  private:
   void add_track(const PlanRequest& request, const ObstacleTrack& track);

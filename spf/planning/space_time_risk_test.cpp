@@ -43,6 +43,10 @@ std::array<Eigen::Vector2d, SpaceTimeRisk::kMaxSteps + 1> standing_at(const Eige
   return positions;
 }
 
+double standing_risk(const SpaceTimeRisk& risk, const Eigen::Vector2d& position) {
+  return risk.along(standing_at(position), risk.steps(), position, 1e9);
+}
+
 // The formula is an approximation of the chance that a two-dimensional Gaussian lies in a disc: compare it
 // with that chance by Monte Carlo. The approximation error, at most 0.12 over this range, is a known property
 // of the formula.
@@ -106,7 +110,7 @@ TEST(SpaceTimeRisk, KnowsWhenAnObstacleIsWhere) {
   const double fading = std::exp(-1.0 / 0.7);
   EXPECT_NEAR(risk.chance(risk.entity(0), 10, {2.0, 0.0}), fading, 1e-9);  // 27 sigma inside
   EXPECT_EQ(risk.chance(risk.entity(0), 30, {2.0, -1.0}), 0.0);            // it is 3 m away by then
-  EXPECT_GT(risk.along(standing_at({2.0, 0.0}), risk.steps(), 1e9), 0.9 * fading);
+  EXPECT_GT(standing_risk(risk, {2.0, 0.0}), 0.9 * fading);
 }
 
 TEST(SpaceTimeRisk, IsUnchangedWhenTheSceneTurns) {
@@ -124,9 +128,9 @@ TEST(SpaceTimeRisk, IsUnchangedWhenTheSceneTurns) {
     turned.tracks.push_back(track_at(0, turn * position, turn * velocity));
     SpaceTimeRisk risk{parameters, 0.3, 1.0};
     risk.prepare(scene.request());
-    const double before = risk.along(standing_at(query), risk.steps(), 1e9);
+    const double before = standing_risk(risk, query);
     risk.prepare(turned.request());
-    EXPECT_NEAR(risk.along(standing_at(turn * query), risk.steps(), 1e9), before, 1e-9);
+    EXPECT_NEAR(standing_risk(risk, turn * query), before, 1e-9);
   }
 }
 
@@ -139,10 +143,10 @@ TEST(SpaceTimeRisk, CountsAPeerThatYieldsByItsWeightOnly) {
   scene.peers.push_back(peer);
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
-  const double yielding = risk.along(standing_at({1.0, 0.0}), risk.steps(), 1e9);
+  const double yielding = standing_risk(risk, {1.0, 0.0});
   scene.peers[0].state = PeerState::stopped;
   risk.prepare(scene.request());
-  const double standing = risk.along(standing_at({1.0, 0.0}), risk.steps(), 1e9);
+  const double standing = standing_risk(risk, {1.0, 0.0});
   // Not equal: the spread of a moving peer grows a little faster.
   EXPECT_NEAR(yielding / standing, SpaceTimeParameters{}.lower_priority_weight, 0.1);
 }
@@ -153,10 +157,10 @@ TEST(SpaceTimeRisk, GrowsWithOwnUncertaintyOutsideTheRadius) {
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   PlanRequest request = scene.request();
   risk.prepare(request);
-  const double sure = risk.along(standing_at({0.9, 0.0}), risk.steps(), 1e9);
+  const double sure = standing_risk(risk, {0.9, 0.0});
   request.position_sigma = 0.2;
   risk.prepare(request);
-  EXPECT_GT(risk.along(standing_at({0.9, 0.0}), risk.steps(), 1e9), sure);
+  EXPECT_GT(standing_risk(risk, {0.9, 0.0}), sure);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ namespace spf {
 namespace {
 
 constexpr double kTimeTolerance = 1e-9;  // [s] ticks that fall on a due time within rounding
-constexpr double kStandingSpeed = 0.02;  // [m/s]
+constexpr double kStandingSpeed = 0.05;  // [m/s] as in the evaluation protocol
+constexpr double kStandingTime = 0.5;    // [s]
 constexpr double kArrivedSpeed = 0.1;    // [m/s]
 constexpr double kClockError = 0.1;      // [s] by which a sensor's clock may be ahead
 constexpr double kLongestNap = 10.0;     // [s] without a step, after which the schedule starts afresh
@@ -89,6 +90,7 @@ struct RobotAgent::Implementation {
   [[nodiscard]] PlanRequest make_request(double time);
   void refresh_guide(double time);
   [[nodiscard]] bool guide_way_clear(const Eigen::Vector2d& here);
+  [[nodiscard]] Eigen::Vector2d last_free_place(const Eigen::Vector2d& here);
   void make_plan(double time);
   void commit(const PlanRequest& request, bool brakes);
   void brake(double time);
@@ -132,6 +134,9 @@ struct RobotAgent::Implementation {
   double next_guide_time;
   double guide_time = -1e9;  // [s] of the last flood
   std::vector<Eigen::Vector2d> guide_way;
+  std::optional<Eigen::Vector2d> guided_goal;  // the goal that the guide stands for
+  bool cut_off = false;                        // it leads to a waiting place, since none leads to the goal
+  double last_motion_time;
   double last_pose_time;
   double last_observation_time;
   double tracking_error_squared = 0.0;  // [m^2] smoothed, per axis
@@ -157,6 +162,7 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       next_control_time{time},
       next_message_time{time},
       next_guide_time{time},
+      last_motion_time{time},
       last_pose_time{time},
       last_observation_time{time} {
   result.trajectory = committed;
@@ -254,15 +260,37 @@ PlanRequest RobotAgent::Implementation::make_request(double time) {
 
 void RobotAgent::Implementation::refresh_guide(double time) {
   const Eigen::Vector2d here = committed.position(time);
-  if (!guide.outdated(map, *goal, here)) return;
-  const bool same_goal = guide.ready() && guide.goal_asked() == *goal;
+  const bool same_goal = guide.ready() && guided_goal == *goal;
   if (same_goal && time < next_guide_time - kTimeTolerance) return;
   // What was newly sensed off the way makes no other way shorter: only a way that is blocked cannot wait.
   const bool can_wait = same_goal && time < guide_time + parameters.team.guide_idle_period - kTimeTolerance;
-  if (can_wait && guide_way_clear(here)) return;
+  if (can_wait && (cut_off || guide_way_clear(here))) return;
+  if (same_goal && !cut_off && !guide.outdated(map, *goal, here)) return;
   guide.update(map, *goal, here);
+  // Without a way to the goal the robot goes as near as the shortest way through the walls leads, and waits
+  // there.
+  cut_off = guide.outcome() == GuideOutcome::unreachable && parameters.generator != Generator::field;
+  if (cut_off) guide.update(map, last_free_place(here), here);
+  guided_goal = *goal;
   guide_time = time;
   next_guide_time = time + parameters.team.guide_period;
+}
+
+/// The last place on the guide's way that keeps its clearance all the way there.
+Eigen::Vector2d RobotAgent::Implementation::last_free_place(const Eigen::Vector2d& here) {
+  guide.way(here, guide_way);
+  Eigen::Vector2d last = here;
+  const double step = map.frame().resolution;
+  for (std::size_t i = 1; i < guide_way.size(); ++i) {
+    const Eigen::Vector2d leg = guide_way[i] - guide_way[i - 1];
+    const int steps = std::max(1, static_cast<int>(leg.norm() / step));
+    for (int k = 1; k <= steps; ++k) {
+      const Eigen::Vector2d place = guide_way[i - 1] + leg * (static_cast<double>(k) / steps);
+      if (map.distance(place) < guide.parameters().clearance) return last;
+      last = place;
+    }
+  }
+  return last;
 }
 
 bool RobotAgent::Implementation::guide_way_clear(const Eigen::Vector2d& here) {
@@ -359,7 +387,10 @@ void RobotAgent::Implementation::brake(double time) {
 void RobotAgent::Implementation::update_status(double time) {
   const FlatState now = committed.state(time);
   const double soon = committed.state(time + 0.5).velocity_world.norm();
-  const bool stands = now.velocity_world.norm() < kStandingSpeed && soon < kStandingSpeed;
+  // A robot that means to go soon, and still means to half a second later, stands.
+  if (now.velocity_world.norm() >= kStandingSpeed) last_motion_time = time;
+  const bool stands = now.velocity_world.norm() < kStandingSpeed &&
+                      (soon < kStandingSpeed || time - last_motion_time > kStandingTime);
   status = {};
   if (goal && (now.position_world - *goal).norm() < parameters.team.goal_tolerance &&
       now.velocity_world.norm() < kArrivedSpeed) {
@@ -377,8 +408,8 @@ void RobotAgent::Implementation::update_status(double time) {
 }
 
 void RobotAgent::Implementation::explain_standing(double time) {
-  const bool no_way =
-      guide.outcome() == GuideOutcome::unreachable || guide.outcome() == GuideOutcome::no_free_goal;
+  const bool no_way = cut_off || guide.outcome() == GuideOutcome::unreachable ||
+                      guide.outcome() == GuideOutcome::no_free_goal;
   // As near to a goal on blocked ground as the way leads.
   const bool at_substitute =
       guide.outcome() == GuideOutcome::goal_moved &&
