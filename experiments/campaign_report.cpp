@@ -90,8 +90,7 @@ std::string pictures_section(const CampaignParts& parts) {
   std::string wheels, frames;
   for (const StoredPicture& picture : parts.pictures)
     (picture.name.starts_with("wheels") ? wheels : frames) +=
-        "<figure style=\"margin:0\">" + picture.svg + "<figcaption class=\"muted\">" +
-        escape_html(picture.name) + "</figcaption></figure>\n";
+        "<figure>" + picture.svg + "<figcaption>" + escape_html(picture.name) + "</figcaption></figure>\n";
   return (frames.empty() ? "" : "<div class=\"frames\">" + frames + "</div>\n") +
          (wheels.empty() ? "" : "<div class=\"charts\">" + wheels + "</div>\n");
 }

@@ -25,7 +25,7 @@ RobotRecord robot(bool arrived, double time, std::int64_t calls) {
 
 TrialRecord trial(int number, const std::string& outcome, double distance, double time) {
   TrialRecord record;
-  record.key = {"t2", "space_time", "walk", 1.0, "full", 20240501, number};
+  record.key = {"t2", "space_time", "walk", 1.0, "full", 20240501, number, ""};
   record.outcome = outcome;
   record.dynamic_distance = distance;
   record.dynamic_clearance = distance - 0.7;

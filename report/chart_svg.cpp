@@ -41,7 +41,7 @@ std::string px(double value) {
 }
 std::string tick_text(double value) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", std::abs(value) < 1e-12 ? 0.0 : value);
+  std::snprintf(text.data(), text.size(), "%.6g", std::abs(value) < 1e-12 ? 0.0 : value);
   return text.data();
 }
 
@@ -149,7 +149,7 @@ std::string x_axis(const ChartAxis& axis, const Scale& x, double top, double bot
     svg += line_between(x(tick), top, x(tick), bottom, "var(--grid)");
     svg += text_at(x(tick), bottom + 16.0, tick_text(tick), "middle");
   }
-  svg += line_between(x.ticks().empty() ? kLeft : kLeft, bottom, kWidth - kRight, bottom, "var(--control)");
+  svg += line_between(kLeft, bottom, kWidth - kRight, bottom, "var(--control)");
   return svg + text_at(0.5 * (kLeft + kWidth - kRight), bottom + 33.0, axis.label, "middle");
 }
 

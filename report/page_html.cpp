@@ -48,6 +48,7 @@ summary { padding: 7px 12px; cursor: pointer; overflow-wrap: anywhere; }
 details[open] > summary { border-bottom: 1px solid var(--line); }
 details > div { padding: 4px 12px 8px; }
 code { font: 12.5px/1.5 ui-monospace, "DejaVu Sans Mono", monospace; background: var(--raised); padding: 1px 4px; border-radius: 4px; overflow-wrap: anywhere; }
+figure { margin: 0; min-width: 0; } figcaption { color: var(--muted); font-size: 12.5px; overflow-wrap: anywhere; }
 .muted { color: var(--muted); }
 @media (max-width: 560px) { header, nav { padding-left: 12px; padding-right: 12px; } main { padding: 6px 6px 30px; } section { padding: 10px; } th, td { padding: 4px 7px; } }
 @media print { button, nav, .skip { display: none; } details { border: 0; } }

@@ -1,0 +1,77 @@
+// What tests of the program share: a folder for each test, and the program run in it.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace spf {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+inline const std::string kSource = SPF_SOURCE_DIR;
+
+inline std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream{path, std::ios::binary}.rdbuf();
+  return text.str();
+}
+
+inline std::vector<std::string> lines_of(const fs::path& path) {
+  std::istringstream text{text_of(path)};
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Finished {
+  int status = -1;
+  std::string out, error;
+};
+
+/// A folder for each test, and the program run in it.
+class Program : public testing::Test {
+ protected:
+  Program() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("good.yaml", kGood);
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  /// One robot, a short way, nothing in it; the trial ends within a few simulated seconds.
+  static constexpr const char* kGood =
+      "family: explicit\n"
+      "robots: [{start: [0, 0], goal: [2, 0]}]\n"
+      "moving: [{position: [0, 5], velocity: [0.5, 0]}]\n"
+      "border: {low: [-3, -8], high: [8, 8]}\n";
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream{folder_ / name} << text;
+  }
+  [[nodiscard]] std::string command(const std::string& arguments) const {
+    return "cd '" + folder_.string() + "' && '" SPF_PROGRAM "' " + arguments;
+  }
+  [[nodiscard]] Finished run(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout", error = folder_ / "stderr";
+    const int status = std::system(
+        (command(arguments) + " >'" + out.string() + "' 2>'" + error.string() + "' </dev/null").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(error)};
+  }
+
+  fs::path folder_ =
+      fs::path{testing::TempDir()} / ("spf_program_" + std::to_string(::getpid()) + "_" +
+                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+}  // namespace spf

@@ -1,0 +1,120 @@
+#include "experiments/campaign.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "experiments/campaign_run.hpp"
+#include "experiments/paper_figures.hpp"
+#include "experiments/parameter_text.hpp"
+
+namespace spf {
+namespace {
+
+CampaignPlan plan_of(const std::string& text) {
+  return campaign_from_text("name: test\nfamilies: [t2]\n" + text, "test.yaml", ".");
+}
+
+TEST(Campaign, CrossesItsAxes) {
+  const CampaignPlan plan =
+      plan_of("methods: [orca, es2]\nlevels: [0, 1, 2]\nnoise: [white, walk]\ntracking: [ideal, full]\n");
+  EXPECT_EQ(plan.cells.size(), 2u * 3u * 2u * 2u);
+  std::set<std::string> files, setups;
+  for (const Cell& cell : plan.cells) {
+    files.insert(cell_file_name(cell.key));
+    setups.insert(cell.setup);
+    EXPECT_EQ(cell.key.method, enum_name(cell.study.method));
+    EXPECT_EQ(cell.key.level, cell.study.simulation.noise.level);
+    EXPECT_EQ(cell.key.noise, enum_name(cell.study.simulation.noise.model));
+    EXPECT_EQ(cell.key.tracking, enum_name(cell.study.simulation.trial.tracking));
+  }
+  EXPECT_EQ(files.size(), plan.cells.size());
+  EXPECT_EQ(setups.size(), plan.cells.size());
+}
+
+TEST(Campaign, LeavesWhatItDoesNotNameToTheScenario) {
+  const CampaignPlan plan = campaign_from_text("name: test\nfamilies: [p8]\n", "test.yaml", ".");
+  ASSERT_EQ(plan.cells.size(), 1u);
+  const Study p8 = default_study(static_cast<SceneFamily>(sim::Family::p8), Method::space_time);
+  EXPECT_EQ(to_yaml_text(plan.cells[0].study), to_yaml_text(p8));
+}
+
+TEST(Campaign, VariantsAndConditionsSetWhatTheySay) {
+  const CampaignPlan plan = plan_of(
+      "methods: [orca]\n"
+      "tracking: [full]\n"
+      "variants: [{name: fast, method: orca, set: [agent.orca.limit_acceleration=false], tracking: "
+      "[ideal]}]\n"
+      "conditions: [{name: one, set: [pose_noise.position_sigma=0.5], methods: [fast]}, {name: two}]\n");
+  ASSERT_EQ(plan.cells.size(), 3u);
+  EXPECT_EQ(plan.cells[0].key.method, "fast");
+  EXPECT_EQ(plan.cells[0].key.condition, "one");
+  EXPECT_EQ(plan.cells[0].key.tracking, "ideal");
+  EXPECT_FALSE(plan.cells[0].study.agent.orca.limit_acceleration);
+  EXPECT_EQ(plan.cells[0].study.simulation.pose_noise.position_sigma, 0.5);
+  EXPECT_EQ(plan.cells[1].key.method, "orca");
+  EXPECT_EQ(plan.cells[1].key.tracking, "full");
+  EXPECT_TRUE(plan.cells[1].study.agent.orca.limit_acceleration);
+  EXPECT_EQ(plan.cells[1].study.simulation.pose_noise.position_sigma, 0.0);
+}
+
+TEST(Campaign, ObserversKnowTheNoiseUnlessTold) {
+  const CampaignPlan plan = plan_of(
+      "set: [pose_noise.position_sigma=0.5, pose_noise.heading_sigma=0.01]\n"
+      "conditions: [{name: told}, {name: misinformed, set: [agent.tracker.observer.pose_sigma=0.1]}]\n");
+  ASSERT_EQ(plan.cells.size(), 2u);
+  const ObserverParameters told = agent_parameters(plan.cells[0].study).tracker.observer;
+  EXPECT_EQ(told.pose_sigma, 0.5);
+  EXPECT_EQ(told.heading_sigma, 0.01);
+  EXPECT_EQ(agent_parameters(plan.cells[1].study).tracker.observer.pose_sigma, 0.1);
+}
+
+TEST(Campaign, WritesItselfSoThatItReadsBack) {
+  const CampaignPlan plan = plan_of("methods: [orca]\nlevels: [0.25]\nfigures: [table2]\ntimes: [1, 2.5]\n");
+  const CampaignPlan again = campaign_from_text(to_yaml_text(plan.campaign), "again.yaml", ".");
+  EXPECT_EQ(to_yaml_text(again.campaign), to_yaml_text(plan.campaign));
+  ASSERT_EQ(again.cells.size(), 1u);
+  EXPECT_EQ(again.cells[0].setup, plan.cells[0].setup);
+}
+
+TEST(CampaignPresets, AreGoodAndHaveThePapersRows) {
+  ASSERT_EQ(campaign_presets().size(), 5u);
+  for (const CampaignPreset& preset : campaign_presets()) {
+    const CampaignPlan plan = campaign_from_text(std::string{preset.text}, std::string{preset.name}, ".");
+    EXPECT_EQ(plan.campaign.name, preset.name);
+    int paper_rows = 0;
+    for (const Cell& cell : plan.cells) {
+      if (preset.name == "table2")
+        paper_rows += paper_table2(cell.key.level, cell.key.method) != nullptr ? 1 : 0;
+      if (preset.name == "table3")
+        paper_rows += paper_table3(cell.key.condition, cell.key.method) != nullptr ? 1 : 0;
+    }
+    // Both noise models; and, of Table 3, both levels.
+    const int expected = preset.name == "table2" ? 9 * 2 : preset.name == "table3" ? 5 * 2 * 2 : 0;
+    EXPECT_EQ(paper_rows, expected) << preset.name;
+  }
+  const std::string file = std::string{SPF_SOURCE_DIR} + "/scenarios/experiments/es2_check.yaml";
+  EXPECT_EQ(read_campaign(file).cells.size(), 4u);
+}
+
+// Every trial is in exactly one shard, and every cell has its share in each.
+TEST(CampaignShards, SplitEveryCellEvenly) {
+  const CampaignPlan plan = plan_of("methods: [orca, es2, space_time]\nlevels: [0, 1]\ntrials: 24\n");
+  for (const int count : {1, 2, 3, 4, 7, 12}) {
+    SCOPED_TRACE(count);
+    std::set<std::pair<int, int>> seen;
+    for (int index = 1; index <= count; ++index) {
+      std::vector<int> of_cell(plan.cells.size(), 0);
+      for (const CampaignTrial& trial : trials_of(plan, {index, count})) {
+        EXPECT_TRUE(seen.emplace(trial.cell, trial.trial).second);
+        ++of_cell[static_cast<std::size_t>(trial.cell)];
+      }
+      for (const int trials : of_cell) EXPECT_NEAR(trials, 24.0 / count, 1.0);
+    }
+    EXPECT_EQ(seen.size(), plan.cells.size() * 24u);
+  }
+}
+
+}  // namespace
+}  // namespace spf
