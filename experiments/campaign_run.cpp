@@ -107,10 +107,12 @@ void work(const CampaignPlan& plan, const CampaignRequest& request, Bench& bench
 std::vector<CampaignTrial> trials_of(const CampaignPlan& plan, Shard shard) {
   std::vector<CampaignTrial> trials;
   const auto cells = static_cast<std::int64_t>(plan.cells.size());
+  // Few shards: every cell in turn over all of them. More shards than trials: one after the other, so that
+  // all are equally long.
+  const bool few = shard.count <= plan.campaign.trials;
   for (std::int64_t k = 0; k < plan.campaign.trials; ++k)
     for (std::int64_t cell = 0; cell < cells; ++cell)
-      // One more for each trial: otherwise a shard would get the same cells of every trial.
-      if ((k * (cells + 1) + cell) % shard.count == shard.index - 1)
+      if ((few ? k + cell : k * cells + cell) % shard.count == shard.index - 1)
         trials.push_back({static_cast<int>(cell), plan.campaign.first + static_cast<int>(k)});
   return trials;
 }

@@ -22,7 +22,8 @@ struct CampaignTrial {
 };
 
 /// The trials of a shard, trial by trial and within each cell by cell: an early stop leaves all cells equally
-/// far. Every trial is in exactly one of the `count` shards, and every cell is spread over all of them.
+/// far. Every trial is in exactly one of the `count` shards, and every cell is spread evenly over
+/// them where there are enough trials.
 [[nodiscard]] std::vector<CampaignTrial> trials_of(const CampaignPlan& plan, Shard shard = {});
 
 struct CampaignRequest {

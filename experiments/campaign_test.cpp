@@ -116,5 +116,16 @@ TEST(CampaignShards, SplitEveryCellEvenly) {
   }
 }
 
+TEST(CampaignShards, AreEquallyLongEvenWhenThereAreMany) {
+  const CampaignPlan plan = plan_of("methods: [orca, es2, space_time]\nlevels: [0, 1]\ntrials: 5\n");
+  std::size_t all = 0;
+  for (int index = 1; index <= 10; ++index) {
+    const std::size_t trials = trials_of(plan, {index, 10}).size();
+    EXPECT_EQ(trials, 3u);
+    all += trials;
+  }
+  EXPECT_EQ(all, 30u);
+}
+
 }  // namespace
 }  // namespace spf
