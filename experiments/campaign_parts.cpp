@@ -1,6 +1,7 @@
 #include "experiments/campaign_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -90,6 +91,40 @@ class Merger {
   std::vector<TrialRecord> merged_;
 };
 
+/// Place of a value in a list; behind all of it when it is not there.
+template <class List, class Name>
+std::size_t place_in(const List& list, const std::string& value, Name name) {
+  std::size_t i = 0;
+  while (i < list.size() && name(list[i]) != value) ++i;
+  return i;
+}
+
+/// Where a cell stands in its campaign's table; parts may hold its cells in any order.
+std::array<std::size_t, 6> rank_of(const Campaign& campaign, const TrialKey& key) {
+  const auto enumerator = [](auto value) { return std::string{enum_name(value)}; };
+  const auto named = [](const auto& entry) { return entry.name; };
+  std::size_t method = place_in(campaign.methods, key.method, enumerator);
+  if (method == campaign.methods.size()) method += place_in(campaign.variants, key.method, named);
+  std::size_t scene = place_in(campaign.families, key.family, enumerator);
+  if (scene == campaign.families.size())
+    scene += place_in(campaign.scenarios, key.family,
+                      [](const std::string& file) { return fs::path{file}.stem().string(); });
+  const std::size_t level = static_cast<std::size_t>(
+      std::find(campaign.levels.begin(), campaign.levels.end(), key.level) - campaign.levels.begin());
+  return {place_in(campaign.conditions, key.condition, named),
+          scene,
+          place_in(campaign.noise, key.noise, enumerator),
+          level,
+          key.tracking == "full" ? 0U : 1U,
+          method};
+}
+
+void sort_cells(const Campaign& campaign, std::vector<CellTrials>& cells) {
+  std::stable_sort(cells.begin(), cells.end(), [&](const CellTrials& a, const CellTrials& b) {
+    return rank_of(campaign, a.front().key) < rank_of(campaign, b.front().key);
+  });
+}
+
 fs::path scenario_of(const std::vector<fs::path>& folders, const TrialKey& key) {
   std::error_code error;
   for (const fs::path& folder : folders)
@@ -118,6 +153,7 @@ std::vector<CampaignParts> read_parts(const std::vector<fs::path>& folders) {
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].cells = by_cell(mergers[i].take());
+    sort_cells(all[i].campaign, all[i].cells);
     for (const CellTrials& cell : all[i].cells)
       all[i].scenarios.push_back(scenario_of(all[i].folders, cell.front().key));
   }
