@@ -55,11 +55,13 @@ Evasion best_evasion(const FlatState& head, const HeadingState& heading, double 
   best.trajectory = braking_trajectory(head, heading, time, robot);
   best.report = model.check(best.trajectory, window);
   if (best.report.clear() && best.report.min_clearance >= kEnoughClearance) return best;
+  const ClearanceWindow only_static{time, until, time, 0.5};
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * kPi * i / kDirections;
     const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
     for (const double part : {1.0, 0.5}) {
       Trajectory trial = sidestep(head, part * robot.max_speed * direction, time, robot);
+      if (!model.check(trial, only_static).clear()) continue;  // never into a wall to gain time
       const ClearanceReport report = model.check(trial, window);
       if (!better(report, best.report)) continue;
       trial.set_heading(stopping_heading(heading, time, robot));

@@ -16,8 +16,8 @@ struct Evasion {
 
 /// Braking and 16 sidesteps (half a second towards a velocity of full or half speed, then braking), all
 /// within the limits. The clear one with the largest clearance wins, braking at equal clearance; when none is
-/// clear, the one whose first conflict is latest. `model` is prepared for the present; conflicts are looked
-/// for until the absolute time `until` [s].
+/// clear, the one whose first conflict is latest; a sidestep into a static surface is never taken. `model` is
+/// prepared for the present; conflicts are looked for until the absolute time `until` [s].
 [[nodiscard]] Evasion best_evasion(const FlatState& head, const HeadingState& heading, double time,
                                    double until, const ClearanceModel& model, const RobotParameters& robot);
 
