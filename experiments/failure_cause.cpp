@@ -30,7 +30,8 @@ std::optional<CauseRecord> cause_of(const sim::TrialResult& result) {
   CauseRecord cause;
   cause.robot = robot_in_question(result);
   if (cause.robot < 0) return std::nullopt;
-  const double time = result.contacts.empty() ? result.sim_seconds : result.contacts.front().time;
+  const bool touched = result.outcome == sim::TrialOutcome::collision && !result.contacts.empty();
+  const double time = touched ? result.contacts.front().time : result.sim_seconds;
   for (const sim::RecordedPlan& plan : result.recording->plans) {
     if (plan.robot != cause.robot || plan.time > time) continue;
     cause.last_plan = to_string(plan.outcome);
