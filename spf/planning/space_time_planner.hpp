@@ -39,7 +39,7 @@ class SpaceTimePlanner {
   void consider_sidesteps(const PlanRequest& request, const GuidePath& guide, PlanResult& result, bool keep);
   void keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,
                       const PlanRequest& request, PlanResult& result) const;
-  void sample(const Trajectory& trajectory, double from, double until);
+  void sample(const Trajectory& trajectory, double from, double drive_end);
   bool smooth_best(const PlanRequest& request, const GuidePath& guide, PlanResult& result, bool keep);
   void finish(const PlanRequest& request, const GuidePath& guide, PlanResult& result, bool keep);
 
