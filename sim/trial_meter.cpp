@@ -34,7 +34,7 @@ TrialMeter::TrialMeter(const Scenario& scenario)
       parameters_{scenario.simulation.trial},
       robots_(scenario.robots.size()) {}
 
-const std::vector<int>& TrialMeter::moved(double time, std::vector<RobotTruth>& robots) {
+void TrialMeter::moved(double time, std::vector<RobotTruth>& robots) {
   arrivals_.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) {
     RobotTruth& truth = robots[i];
@@ -48,23 +48,6 @@ const std::vector<int>& TrialMeter::moved(double time, std::vector<RobotTruth>& 
     truth.arrived = true;
     arrivals_.push_back(static_cast<int>(i));
   }
-  return arrivals_;
-}
-
-void TrialMeter::planned(int robot, const PlanResult& plan) {
-  RobotResult& result = robots_[static_cast<std::size_t>(robot)];
-  ++result.plans;
-  if (plan.outcome != PlanOutcome::success && plan.outcome != PlanOutcome::goal_reached)
-    ++result.failed_plans;
-  result.optimiser_calls += plan.stats.optimiser_calls;
-  result.inner_iterations += plan.stats.inner_iterations;
-  result.evaluations += plan.stats.evaluations;
-  result.manoeuvres += plan.stats.manoeuvres;
-}
-
-void TrialMeter::stood(int robot, const AgentStatus& status, double duration) {
-  if (status.reason == StandReason::none || status.reason == StandReason::arrived) return;
-  robots_[static_cast<std::size_t>(robot)].stood[static_cast<std::size_t>(status.reason)] += duration;
 }
 
 void TrialMeter::digest(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers) {
@@ -95,7 +78,37 @@ void TrialMeter::finish(double time, const std::vector<RobotTruth>& robots, cons
     if (robot.arrived) result.last_arrival = std::max(result.last_arrival, robot.travel_time);
     result.static_clearance = std::min(result.static_clearance, robot.static_clearance);
   }
-  result.robots = std::move(robots_);
+  result.robots = robots_;
+}
+
+void AgentMeter::planned(int robot, const PlanResult& plan) {
+  RobotResult& result = robots_[static_cast<std::size_t>(robot)];
+  ++result.plans;
+  if (plan.outcome != PlanOutcome::success && plan.outcome != PlanOutcome::goal_reached)
+    ++result.failed_plans;
+  result.optimiser_calls += plan.stats.optimiser_calls;
+  result.inner_iterations += plan.stats.inner_iterations;
+  result.evaluations += plan.stats.evaluations;
+  result.manoeuvres += plan.stats.manoeuvres;
+}
+
+void AgentMeter::stood(int robot, const AgentStatus& status, double duration) {
+  if (status.reason == StandReason::none || status.reason == StandReason::arrived) return;
+  robots_[static_cast<std::size_t>(robot)].stood[static_cast<std::size_t>(status.reason)] += duration;
+}
+
+void AgentMeter::finish(TrialResult& result) const {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const RobotResult& from = robots_[i];
+    RobotResult& to = result.robots[i];
+    to.plans = from.plans;
+    to.failed_plans = from.failed_plans;
+    to.optimiser_calls = from.optimiser_calls;
+    to.inner_iterations = from.inner_iterations;
+    to.evaluations = from.evaluations;
+    to.manoeuvres = from.manoeuvres;
+    to.stood = from.stood;
+  }
 }
 
 }  // namespace spf::sim

@@ -1,4 +1,4 @@
-// Adds up the figures of a trial while it runs (protocol section 6).
+// Adds up the figures of a trial while it runs (protocol section 6): of the truth, and of the agents in it.
 #pragma once
 
 #include <vector>
@@ -15,12 +15,10 @@ class TrialMeter {
   explicit TrialMeter(const Scenario& scenario);
 
   /// The robots have moved along their `motion` and it is now `time` [s]. Sets `arrived` of those that
-  /// arrive; returns their numbers, valid until the next call.
-  const std::vector<int>& moved(double time, std::vector<RobotTruth>& robots);
-  /// A planning call of a robot ended.
-  void planned(int robot, const PlanResult& plan);
-  /// For `duration` [s] the robot has had this status.
-  void stood(int robot, const AgentStatus& status, double duration);
+  /// arrive.
+  void moved(double time, std::vector<RobotTruth>& robots);
+  /// Numbers of the robots that arrived in the last call of moved().
+  [[nodiscard]] const std::vector<int>& arrivals() const { return arrivals_; }
   /// All positions now, into the digest.
   void digest(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
 
@@ -35,6 +33,22 @@ class TrialMeter {
   std::vector<RobotResult> robots_;
   std::vector<int> arrivals_;
   std::uint64_t digest_ = 0;
+};
+
+/// What the agents did: the planning effort and the standing about of a RobotResult.
+class AgentMeter {
+ public:
+  explicit AgentMeter(std::size_t robots) : robots_(robots) {}
+
+  /// A planning call of a robot ended.
+  void planned(int robot, const PlanResult& plan);
+  /// For `duration` [s] the robot has had this status.
+  void stood(int robot, const AgentStatus& status, double duration);
+  /// Fills it into a result that holds the truth of the same robots.
+  void finish(TrialResult& result) const;
+
+ private:
+  std::vector<RobotResult> robots_;  // only the fields that are metered here
 };
 
 }  // namespace spf::sim

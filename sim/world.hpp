@@ -1,0 +1,113 @@
+// The ground truth of one trial, tick by tick, for any host of robots: sim::Simulation runs agents in it, the
+// ROS simulator serves it over topics. Knows no agent. Deterministic: noise depends on the scenario alone, as
+// long as poses and observations are taken at the same ticks. Frame: world, SI.
+#pragma once
+
+#include <vector>
+
+#include "sim/contact_monitor.hpp"
+#include "sim/movers.hpp"
+#include "sim/robot_truth.hpp"
+#include "sim/sensing.hpp"
+#include "sim/trial_meter.hpp"
+#include "spf/robot/omni_dynamics.hpp"
+
+namespace spf::sim {
+
+class World {
+ public:
+  /// Throws std::invalid_argument with all reasons when the scenario cannot be used.
+  explicit World(const Scenario& scenario);
+
+  // A tick has two halves, in the order of protocol section 5: begin_tick(); what is due is sensed and
+  // commanded; end_tick(). A host may go on after finished(); the world does not mind.
+  void begin_tick();
+  /// Moves the robots, sweeps for contacts, notes arrivals; then it is one tick later. Throws
+  /// std::runtime_error when a robot's position is no longer finite.
+  void end_tick();
+
+  [[nodiscard]] double time() const { return static_cast<double>(tick_) / plant_rate_; }           ///< [s]
+  [[nodiscard]] double next_time() const { return static_cast<double>(tick_ + 1) / plant_rate_; }  ///< [s]
+  /// The movers begin a step of 0.1 s with this tick.
+  [[nodiscard]] bool step_due() const { return tick_ % step_ticks_ == 0; }
+  [[nodiscard]] bool pose_due() const { return tick_ % pose_ticks_ == 0; }
+  [[nodiscard]] bool observation_due() const { return observation_due_; }
+  [[nodiscard]] double pose_interval() const {
+    return static_cast<double>(pose_ticks_) / plant_rate_;
+  }  ///< [s]
+  /// Share of the movers' step at which the tick begins, in [0, 1).
+  [[nodiscard]] double share() const { return share_at(tick_); }
+
+  /// Call it once per robot in each tick in which it is due: every call draws its noise.
+  [[nodiscard]] PoseMeasurement measure_pose(int robot);
+  /// Likewise, into `observation`, whose memory is used again.
+  void observe(int robot, Observation& observation);
+
+  /// Commanded wheel speeds [m/s], held until the next (TrackingMode::full).
+  void command(int robot, const Eigen::Vector3d& wheel_speeds) { commands_[index(robot)] = wheel_speeds; }
+  /// Where the robot is to be at the end of the tick, and its velocity then (TrackingMode::ideal).
+  void place(int robot, const Pose2& pose_world, const Eigen::Vector2d& velocity_world);
+
+  /// Contact ends the trial, or all have arrived or are wrecks, or time is up.
+  [[nodiscard]] bool finished() const;
+  /// How the trial stands, without what only a host of agents knows (plans, messages, timings).
+  [[nodiscard]] TrialResult result() const;
+
+  [[nodiscard]] const Scenario& scenario() const { return scenario_; }
+  [[nodiscard]] const std::vector<RobotTruth>& robots() const { return robots_; }
+  [[nodiscard]] const std::vector<Mover>& movers() const { return movers_.all(); }
+  [[nodiscard]] const StaticShapes& shapes() const { return monitor_.shapes(); }
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& commands() const {
+    return commands_;
+  }  ///< [m/s] by robot
+  [[nodiscard]] const OmniDynamics& plant(int robot) const { return plants_[index(robot)]; }
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& positions() const {
+    return positions_;
+  }  ///< [m] of robots
+  [[nodiscard]] const UniformGrid& robot_grid() const {
+    return grid_;
+  }  ///< over positions(), since a pose tick
+
+  // What has happened, by time; arrivals are those of the last tick.
+  [[nodiscard]] const std::vector<Contact>& contacts() const { return monitor_.contacts(); }
+  [[nodiscard]] const std::vector<Contact>& hits_while_standing() const {
+    return monitor_.hits_while_standing();
+  }
+  [[nodiscard]] const std::vector<int>& arrivals() const { return meter_.arrivals(); }
+
+ private:
+  struct Placement {
+    Pose2 pose_world;
+    Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  // [m/s]
+  };
+  [[nodiscard]] static std::size_t index(int robot) { return static_cast<std::size_t>(robot); }
+  [[nodiscard]] double share_at(long tick) const {
+    return static_cast<double>(tick % step_ticks_) / static_cast<double>(step_ticks_);
+  }
+  void move();
+  void check();
+
+  Scenario scenario_;
+  double plant_rate_;  // [Hz]
+  long step_ticks_;    // of the movers
+  long pose_ticks_;
+  long observation_ticks_;
+  double time_limit_;  // [s]
+
+  long tick_ = 0;
+  long next_observation_tick_ = 0;  // on the first pose tick from here
+  bool observation_due_ = false;
+  std::size_t contacts_seen_ = 0;
+  std::vector<RobotTruth> robots_;
+  std::vector<OmniDynamics> plants_;
+  std::vector<Eigen::Vector3d> commands_;  // [m/s] by robot
+  std::vector<Placement> placements_;      // by robot, of TrackingMode::ideal
+  std::vector<Eigen::Vector2d> positions_;
+  UniformGrid grid_;
+  Movers movers_;
+  Sensing sensing_;
+  ContactMonitor monitor_;
+  TrialMeter meter_;
+};
+
+}  // namespace spf::sim
