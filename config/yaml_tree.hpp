@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 
 namespace spf {
 

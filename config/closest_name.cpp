@@ -1,4 +1,4 @@
-#include "experiments/closest_name.hpp"
+#include "config/closest_name.hpp"
 
 #include <algorithm>
 
@@ -34,7 +34,7 @@ std::optional<std::string> closest_name(std::string_view name, const std::vector
   }
   if (best) return best;
   for (const std::string& candidate : known) {
-    if (!std::string_view{candidate}.starts_with(name)) continue;
+    if (std::string_view{candidate}.substr(0, name.size()) != name) continue;
     if (best) return std::nullopt;
     best = candidate;
   }

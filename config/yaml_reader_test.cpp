@@ -1,4 +1,4 @@
-#include "experiments/yaml_reader.hpp"
+#include "config/yaml_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "experiments/parameter_table.hpp"
-#include "experiments/yaml_writer.hpp"
+#include "config/parameter_table.hpp"
+#include "config/yaml_writer.hpp"
 
 namespace spf {
 

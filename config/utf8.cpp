@@ -1,4 +1,4 @@
-#include "experiments/utf8.hpp"
+#include "config/utf8.hpp"
 
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-#include "experiments/yaml_tree.hpp"
+#include "config/yaml_tree.hpp"
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
@@ -13,7 +13,7 @@
 #include <sstream>
 #include <utility>
 
-#include "experiments/utf8.hpp"
+#include "config/utf8.hpp"
 
 namespace spf {
 namespace {

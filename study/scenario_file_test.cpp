@@ -1,4 +1,4 @@
-#include "experiments/scenario_file.hpp"
+#include "study/scenario_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "experiments/yaml_reader.hpp"
+#include "config/yaml_reader.hpp"
 
 namespace spf {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/parameter_text.hpp"
+#include "config/parameter_text.hpp"
 
 #include <array>
 #include <charconv>

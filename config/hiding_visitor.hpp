@@ -2,7 +2,7 @@
 // sets.
 #pragma once
 
-#include <span>
+#include <algorithm>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -13,7 +13,8 @@ namespace spf {
 template <class Visitor>
 class HidingVisitor {
  public:
-  HidingVisitor(Visitor& visit, std::span<const std::string_view> hidden) : visit_{visit}, hidden_{hidden} {}
+  HidingVisitor(Visitor& visit, const std::vector<std::string_view>& hidden)
+      : visit_{visit}, hidden_{hidden} {}
 
   template <class... Rest>
   void operator()(const char* name, Rest&&... rest) {
@@ -26,20 +27,18 @@ class HidingVisitor {
 
  private:
   [[nodiscard]] bool hides(std::string_view name) const {
-    for (const std::string_view hidden : hidden_)
-      if (hidden == name) return true;
-    return false;
+    return std::find(hidden_.begin(), hidden_.end(), name) != hidden_.end();
   }
 
   Visitor& visit_;
-  std::span<const std::string_view> hidden_;
+  const std::vector<std::string_view>& hidden_;
 };
 
 /// A struct seen through a HidingVisitor; usable wherever a struct with visit_fields is.
 template <class Parameters>
 struct PartlyHidden {
   Parameters& parameters;  ///< const or not
-  std::span<const std::string_view> hidden;
+  std::vector<std::string_view> hidden;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {

@@ -2,7 +2,7 @@
 // fields. Every problem is collected with file, line, column, key, value and limit; nothing throws and no bad
 // value is taken over.
 //
-// Beside the calls of spf/math/parameters.hpp a visit_fields of this room may use
+// Beside the calls of spf/math/parameters.hpp a visit_fields may use
 //   visit(name, Eigen::Vector2d or std::optional<double>, unit, range, what)
 //   visit(name, std::string, what)
 //   visit.list(name, std::vector<Struct>, what)   entries are maps, read by Struct::visit_fields
@@ -18,10 +18,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "experiments/yaml_tree.hpp"
+#include "config/yaml_tree.hpp"
 #include "spf/math/parameters.hpp"
 
 namespace spf {
@@ -47,8 +48,7 @@ void read_choice(const ReadTarget& target, std::string& value);
 [[nodiscard]] std::optional<std::size_t> read_name(const ReadTarget& target,
                                                    const std::vector<std::string>& names);
 
-template <class E>
-requires std::is_enum_v<E>
+template <class E, class = std::enable_if_t<std::is_enum_v<E>>>
 void read_choice(const ReadTarget& target, E& value) {
   std::vector<std::string> names;
   for (const auto& entry : EnumNames<E>::values) names.emplace_back(entry.second);

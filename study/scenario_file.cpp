@@ -1,12 +1,12 @@
-#include "experiments/scenario_file.hpp"
+#include "study/scenario_file.hpp"
 
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
-#include "experiments/parameter_text.hpp"
-#include "experiments/yaml_reader.hpp"
-#include "experiments/yaml_writer.hpp"
+#include "config/parameter_text.hpp"
+#include "config/yaml_reader.hpp"
+#include "config/yaml_writer.hpp"
 
 namespace spf {
 namespace {
@@ -124,7 +124,7 @@ class Refused {
 std::string scene_sentence(const YamlNode& node, const std::string& where, std::string what) {
   const bool has_value = node.kind == YamlKind::scalar || node.kind == YamlKind::list;
   const std::size_t end = what.find(") ");
-  if (has_value && what.starts_with("(") && end != std::string::npos) what.erase(0, end + 2);
+  if (has_value && what.rfind("(", 0) == 0 && end != std::string::npos) what.erase(0, end + 2);
   return where + (has_value ? " = " + shown(node) : "") + " " + what;
 }
 

@@ -1,4 +1,4 @@
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 
 #include <algorithm>
 #include <tuple>

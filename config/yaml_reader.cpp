@@ -1,4 +1,4 @@
-#include "experiments/yaml_reader.hpp"
+#include "config/yaml_reader.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -7,8 +7,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "experiments/closest_name.hpp"
-#include "experiments/parameter_text.hpp"
+#include "config/closest_name.hpp"
+#include "config/parameter_text.hpp"
 
 namespace spf {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/parameter_text.hpp"
+#include "config/parameter_text.hpp"
 #include "spf/math/parameters.hpp"
 
 namespace spf {

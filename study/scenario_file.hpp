@@ -12,10 +12,11 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "experiments/hiding_visitor.hpp"
-#include "experiments/input_problem.hpp"
+#include "config/hiding_visitor.hpp"
+#include "config/input_problem.hpp"
 #include "sim/families.hpp"
 #include "sim/scenario.hpp"
 #include "spf/team/agent_parameters.hpp"
@@ -24,16 +25,17 @@ namespace spf {
 
 /// Where a scene comes from: one of sim::Family, or written out in the file.
 enum class SceneFamily : int { explicit_scene = -1 };
+template <std::size_t... i>
+[[nodiscard]] constexpr auto scene_family_names(std::index_sequence<i...>) {
+  constexpr auto& drawn = EnumNames<sim::Family>::values;
+  return std::array<std::pair<SceneFamily, const char*>, sizeof...(i) + 1>{
+      {{static_cast<SceneFamily>(drawn[i].first), drawn[i].second}...,
+       {SceneFamily::explicit_scene, "explicit"}}};
+}
 template <>
 struct EnumNames<SceneFamily> {
-  static constexpr auto values = [] {
-    constexpr auto& drawn = EnumNames<sim::Family>::values;
-    std::array<std::pair<SceneFamily, const char*>, drawn.size() + 1> all{};
-    for (std::size_t i = 0; i < drawn.size(); ++i)
-      all[i] = {static_cast<SceneFamily>(static_cast<int>(drawn[i].first)), drawn[i].second};
-    all.back() = {SceneFamily::explicit_scene, "explicit"};
-    return all;
-  }();
+  static constexpr auto values =
+      scene_family_names(std::make_index_sequence<EnumNames<sim::Family>::values.size()>{});
 };
 
 /// Coordinates that nobody may use before the file has set them.
@@ -182,9 +184,6 @@ struct Setting {
 
 template <class Self, class Visitor>
 void Study::visit_fields(Self& self, Visitor&& visit) {
-  static constexpr std::array<std::string_view, 1> kLayoutElsewhere{"robots"};
-  static constexpr std::array<std::string_view, 3> kAgentElsewhere{"robot", "generator", "ideal_tracking"};
-
   visit.required("family");
   visit("family", self.family,
         "generator of the evaluation protocol, or explicit: the scene stands in the file");
@@ -194,12 +193,13 @@ void Study::visit_fields(Self& self, Visitor&& visit) {
     ExplicitScene::visit_fields(self.scene, visit);
   } else {
     visit("robots", self.layout.robots, "1", Range{1, 10000}, "number of robots");
-    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, kLayoutElsewhere};
+    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
     visit.group("layout", layout);
   }
   visit.group("robot", self.robot);
   sim::SimulationParameters::visit_fields(self.simulation, visit);
-  PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{self.agent, kAgentElsewhere};
+  PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{
+      self.agent, {"robot", "generator", "ideal_tracking"}};
   visit.group("agent", agent);
 }
 
