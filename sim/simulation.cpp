@@ -17,6 +17,8 @@
 namespace spf::sim {
 namespace {
 
+const Eigen::Vector2d kNowhere{1e12, 1e12};  // [m] neither seen nor in anybody's way
+
 /// Ticks between two events of a rate; at least one.
 long ticks_between(double plant_rate, double rate) {
   return std::max(1L, std::lround(plant_rate / rate));
@@ -165,7 +167,7 @@ void Simulation::Implementation::observe() {
   while (next_observation_tick <= tick) next_observation_tick += observation_ticks;
   const Surroundings surroundings{now(), share_at(tick), &movers.all(), &positions, &grid};
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (robots[i].wrecked) continue;
+    if (robots[i].wrecked || robots[i].gone) continue;
     const int robot = static_cast<int>(i);
     pose_inputs[i].poses.clear();
     pose_inputs[i].poses.push_back(sensing.measure_pose(robot, now(), robots[i].pose));
@@ -178,7 +180,7 @@ void Simulation::Implementation::observe() {
 
 void Simulation::Implementation::think() {
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (!robots[i].wrecked) think(i);
+    if (!robots[i].wrecked && !robots[i].gone) think(i);
     world_inputs[i].messages.clear();
   }
 }
@@ -246,14 +248,14 @@ void Simulation::Implementation::move() {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     RobotTruth& truth = robots[i];
     truth.motion.from = truth.pose.position_world;
-    if (truth.wrecked)
+    if (truth.wrecked || truth.gone)
       truth.velocity_world.setZero();
     else if (ideal())
       move_ideal(i, to);
     else
       move_plant(i);
     truth.motion.to = truth.pose.position_world;
-    positions[i] = truth.pose.position_world;
+    positions[i] = truth.gone ? kNowhere : truth.pose.position_world;
     if (!truth.pose.position_world.allFinite())
       throw std::runtime_error{"robot " + std::to_string(i) + " left the number line at " +
                                std::to_string(to) + " s"};
@@ -282,9 +284,12 @@ void Simulation::Implementation::check() {
   for (; hits_seen < monitor.hits_while_standing().size(); ++hits_seen)
     if (recorder)
       recorder->contact(monitor.hits_while_standing()[hits_seen], RecordedEvent::Kind::hit_while_standing);
-  for (const int robot : meter.moved(now() + dt, robots))
-    if (recorder)
-      recorder->arrival(now() + dt, robot, robots[static_cast<std::size_t>(robot)].pose.position_world);
+  const bool leave = scenario.simulation.trial.after_arrival == AfterArrival::leave;
+  for (const int robot : meter.moved(now() + dt, robots)) {
+    RobotTruth& truth = robots[static_cast<std::size_t>(robot)];
+    truth.gone = leave;
+    if (recorder) recorder->arrival(now() + dt, robot, truth.pose.position_world);
+  }
 }
 
 void Simulation::Implementation::wreck(const Contact& contact) {
@@ -326,10 +331,15 @@ TrialResult Simulation::Implementation::result() {
   const bool ends = scenario.simulation.trial.after_contact == AfterContact::end;
   if (ends && result.contacts.size() > 1) result.contacts.resize(1);
   result.hits_while_standing = monitor.hits_while_standing();
-  const bool all_arrived =
-      std::all_of(robots.begin(), robots.end(), [](const RobotTruth& truth) { return truth.arrived; });
+  for (const Contact& contact : result.contacts) {
+    result.robots[static_cast<std::size_t>(contact.robot)].touched = true;
+    if (contact.with == ContactWith::robot)
+      result.robots[static_cast<std::size_t>(contact.other)].touched = true;
+  }
+  const bool all_in_time = std::all_of(result.robots.begin(), result.robots.end(),
+                                       [](const RobotResult& robot) { return robot.in_time; });
   result.outcome = !result.contacts.empty() ? TrialOutcome::collision
-                   : all_arrived            ? TrialOutcome::success
+                   : all_in_time            ? TrialOutcome::success
                                             : TrialOutcome::overtime;
   result.plan_ms = std::move(plan_ms);
   result.control_us = std::move(control_us);
