@@ -13,6 +13,33 @@ namespace spf {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+/// Of rows among recorded people; empty when there are none.
+std::string crossings_table(const std::vector<ResultRow>& rows) {
+  Table table{{{"crossings", Alignment::left},
+               {"condition", Alignment::left},
+               {"method", Alignment::left},
+               {"n"},
+               {"ok %"},
+               {"contacts"},
+               {"a robot-minute"},
+               {"hits while standing"},
+               {"robot-minutes"}}};
+  bool any = false;
+  for (const ResultRow& row : rows) {
+    if (row.crossings == 0) continue;
+    any = true;
+    table.add_row({row.family, row.condition, row.method, std::to_string(row.crossings),
+                   fixed(100.0 * row.crossings_ok / row.crossings, 1), std::to_string(row.contacts_moving),
+                   fixed(row.contacts_moving / std::max(row.robot_minutes, 1e-9), 3),
+                   std::to_string(row.hits_while_standing), fixed(row.robot_minutes, 1)});
+  }
+  return any ? "\n" + table.to_text() : "";
+}
+
+}  // namespace
+
 std::string campaign_table(const std::vector<ResultRow>& rows) {
   const bool conditions =
       std::any_of(rows.begin(), rows.end(), [](const ResultRow& row) { return !row.condition.empty(); });
@@ -45,7 +72,7 @@ std::string campaign_table(const std::vector<ResultRow>& rows) {
       cells.push_back(cell);
     table.add_row(std::move(cells));
   }
-  return table.to_text();
+  return table.to_text() + crossings_table(rows);
 }
 
 std::string json_lines(const std::vector<ResultRow>& rows, const std::vector<PairedRow>& pairs) {

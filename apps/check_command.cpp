@@ -1,6 +1,7 @@
 // spf check: is this a scenario, and what does the program understand by it?
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "apps/command.hpp"
 #include "config/input_problem.hpp"
@@ -24,6 +25,9 @@ std::string scene_text(const sim::Scenario& scenario) {
   add(scenario.pillars.size(), "static discs");
   add(scenario.walls.size(), "walls");
   add(scenario.discs.size(), "moving discs");
+  std::set<int> people;
+  for (const sim::CrowdSample& sample : scenario.crowd) people.insert(sample.id);
+  add(people.size(), "recorded people");
   if (scenario.border) {
     const Eigen::Vector2d size = scenario.border->high - scenario.border->low;
     text += ", in " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " m";

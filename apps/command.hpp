@@ -38,5 +38,6 @@ Verb add_experiment(CLI::App& program);
 Verb add_report(CLI::App& program);
 Verb add_check(CLI::App& program);
 Verb add_parameters(CLI::App& program);
+Verb add_crowd(CLI::App& program);
 
 }  // namespace spf

@@ -32,9 +32,9 @@ int run_program(int argc, char** argv) {
       "Exit status: 0 done, 1 ran but failed what it checks, 2 bad usage or input, 130 interrupted.\n"
       "spf VERB --help explains each verb.");
   program.failure_message(CLI::FailureMessage::simple);
-  const std::vector<spf::Verb> verbs{spf::add_run(program), spf::add_experiment(program),
-                                     spf::add_report(program), spf::add_check(program),
-                                     spf::add_parameters(program)};
+  const std::vector<spf::Verb> verbs{spf::add_run(program),        spf::add_experiment(program),
+                                     spf::add_report(program),     spf::add_check(program),
+                                     spf::add_parameters(program), spf::add_crowd(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -174,6 +174,8 @@ class Run {
 
 int run(const RunOptions& options) {
   Study study = read_study(options.file, options.scenario.to_settings());
+  const std::string problem = trials_problem(study, options.first, options.trials.value_or(1));
+  if (!problem.empty()) throw InputError{{options.trials ? "--trials" : "--first", 0, 0}, problem};
   Run work{options, std::move(study)};
   return options.trials ? work.many() : work.once();
 }

@@ -8,6 +8,7 @@
 
 #include "apps/version.hpp"
 #include "config/parameter_text.hpp"
+#include "experiments/statistics.hpp"
 #include "report/table.hpp"
 
 namespace spf {
@@ -27,6 +28,18 @@ std::string success_text(const ResultRow& row) {
   return std::to_string(row.success) + " of " + std::to_string(row.trials) + " = " +
          percent(row.success_rate) + ", 95 % interval [" + fixed(100.0 * row.wilson_low, 1) + ", " +
          fixed(100.0 * row.wilson_high, 1) + "]";
+}
+
+std::string crossings_text(const ResultRow& row) {
+  const Interval interval = wilson_interval(row.crossings_ok, row.crossings);
+  return std::to_string(row.crossings_ok) + " of " + std::to_string(row.crossings) + " = " +
+         percent(static_cast<double>(row.crossings_ok) / row.crossings) + ", 95 % interval [" +
+         fixed(100.0 * interval.low, 1) + ", " + fixed(100.0 * interval.high, 1) + "]";
+}
+
+std::string rate_text(int count, const ResultRow& row) {
+  return std::to_string(count) + " in " + fixed(row.robot_minutes, 1) + " robot-minutes, " +
+         fixed(count / std::max(row.robot_minutes, 1e-9), 3) + " a minute";
 }
 
 std::string failures_text(const std::vector<TrialRecord>& trials) {
@@ -70,6 +83,11 @@ std::string summary_text(const Study& study, const std::vector<TrialRecord>& tri
     add("success", success_text(row));
   if (!single)
     add("overtime | collision", std::to_string(row.overtime) + " | " + std::to_string(row.collision));
+  if (row.crossings > 0) {
+    add("crossings", crossings_text(row));
+    add("contacts while moving", rate_text(row.contacts_moving, row));
+    add("hits while standing", rate_text(row.hits_while_standing, row));
+  }
   add("robots home", std::to_string(row.arrived_robots) + " of " + std::to_string(row.robots));
   add("travel time", fixed(row.travel_time_mean, 2) + " s, " + fixed(row.travel_time_ratio, 3) +
                          " times the obstacle-free optimum");

@@ -197,7 +197,7 @@ class CellMaker {
       cell.study = choice.scene.file.empty()
                        ? study_from_text("family: " + choice.scene.name + "\n", choice.scene.name, settings)
                        : read_study(choice.scene.file, settings);
-      cell.setup = hash_text(to_yaml_text(cell.study));
+      cell.setup = hash_text(identity_text(cell.study));
       cell.key = {choice.scene.name,
                   choice.contender.name.empty() ? enum_name(cell.study.method) : choice.contender.name,
                   enum_name(cell.study.simulation.noise.model),
@@ -206,6 +206,8 @@ class CellMaker {
                   cell.study.seed,
                   0,
                   choice.condition.name};
+      const std::string problem = trials_problem(cell.study, campaign_.first, campaign_.trials);
+      if (!problem.empty() && told_.insert(problem).second) refuse("trials", problem);
       cells_.push_back(std::move(cell));
     } catch (const InputError& error) {
       for (const InputProblem& problem : error.problems().kept())

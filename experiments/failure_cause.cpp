@@ -15,7 +15,7 @@ int robot_in_question(const sim::TrialResult& result) {
   if (result.outcome == sim::TrialOutcome::collision && !result.contacts.empty())
     return result.contacts.front().robot;
   for (std::size_t i = 0; i < result.robots.size(); ++i)
-    if (!result.robots[i].arrived) return static_cast<int>(i);
+    if (!result.robots[i].in_time) return static_cast<int>(i);
   return -1;
 }
 

@@ -32,7 +32,7 @@ Table table_of(const std::vector<ParameterRow>& rows) {
 std::string changes_text(const Study& base, const Study& changed) {
   std::string text;
   for (const ParameterRow& row : differences(base, changed)) {
-    if (row.key == "family" || row.key == "method") continue;
+    if (row.key == "family" || row.key == "method" || row.key == "crowd") continue;
     text += (text.empty() ? "" : ", ") + std::string{"`"} + row.key + ": " + row.value + "`";
   }
   return text.empty() ? "nothing" : text;
@@ -69,6 +69,9 @@ std::vector<ParameterRow> all_parameters() {
     if (row.key == "robots") row.what += " (family: explicit)";
     if (row.key == "robots" || !known.contains(row.key)) of_scene.push_back(std::move(row));
   }
+  for (const ParameterRow& row :
+       parameter_rows(default_study(static_cast<SceneFamily>(static_cast<int>(sim::Family::ped)), standard)))
+    if (row.key == "crowd") of_scene.push_back(row);
   for (ParameterRow& row : of_scene)
     if (row.value == to_text(kUnsetPoint)) row.value = "required";
   std::size_t at = 0;

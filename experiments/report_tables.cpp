@@ -169,6 +169,30 @@ PageTable rows_table(const CampaignParts& parts) {
   return table;
 }
 
+PageTable crossings_table(const CampaignParts& parts) {
+  PageTable table{"Crossings among recorded people",
+                  {"scene", "method", "crossings", "ok %", "contacts while moving", "a robot-minute",
+                   "hits while standing", "robot-minutes"},
+                  {}};
+  for (const CellTrials& cell : parts.cells) {
+    const ResultRow row = result_row(cell);
+    if (row.crossings == 0) continue;
+    const Interval interval = wilson_interval(row.crossings_ok, row.crossings);
+    const TrialKey& key = cell.front().key;
+    table.rows.push_back(
+        {row_header(key.family + ", " + scene_text(key)),
+         text(row.method),
+         text(std::to_string(row.crossings)),
+         {percent(row.crossings_ok, row.crossings),
+          "[" + fixed(100.0 * interval.low, 1) + ", " + fixed(100.0 * interval.high, 1) + "]"},
+         text(std::to_string(row.contacts_moving)),
+         text(fixed(row.contacts_moving / std::max(row.robot_minutes, 1e-9), 3)),
+         text(std::to_string(row.hits_while_standing)),
+         text(fixed(row.robot_minutes, 1))});
+  }
+  return table;
+}
+
 std::vector<PageTable> table2_tables(const CampaignParts& parts) {
   std::vector<PageTable> tables;
   for (const Group& group : grouped(parts, [](const TrialKey& key) {

@@ -24,6 +24,9 @@ namespace spf {
 /// Largest wheel speed of each cell, and how many trials kept the limit (Fig. 9).
 [[nodiscard]] PageTable wheel_table(const CampaignParts& parts);
 
+/// Crossings, contacts and hits among recorded people (PED); no rows without such trials.
+[[nodiscard]] PageTable crossings_table(const CampaignParts& parts);
+
 /// Names of the methods, in the order of the campaign.
 [[nodiscard]] std::vector<std::string> method_names(const CampaignParts& parts);
 /// "walk noise at 1 Sigma, full tracking", with the condition where there is one.

@@ -58,6 +58,15 @@ void fill_successes(ResultRow& row, const std::vector<TrialRecord>& trials) {
   row.dynamic_clearance_min = minimum(clearances);
 }
 
+void add_crossing(ResultRow& row, const TrialRecord& trial) {
+  if (!trial.crossing) return;
+  row.crossings += trial.crossing->crossings;
+  row.crossings_ok += trial.crossing->crossings_ok;
+  row.contacts_moving += trial.crossing->contacts_moving;
+  row.hits_while_standing += trial.hits_while_standing;
+  row.robot_minutes += trial.crossing->robot_minutes;
+}
+
 class CsvWriter {
  public:
   void operator()(const char*, const std::string& value) { cell(value); }
@@ -92,6 +101,7 @@ ResultRow result_row(const std::vector<TrialRecord>& trials) {
     calls.push_back(calls_per_robot(trial));
     for (const RobotRecord& robot : trial.robots) row.arrived_robots += robot.arrived ? 1 : 0;
     row.robots += static_cast<int>(trial.robots.size());
+    add_crossing(row, trial);
     row.sim_seconds += trial.sim_time;
     row.wall_seconds += trial.wall_time;
     plan_time.merge(trial.plan_time);
@@ -114,6 +124,9 @@ ResultRow result_row(const std::vector<TrialRecord>& trials) {
 std::string to_json_line(const ResultRow& row) {
   Json json = Json::object();
   ResultRow::visit_fields(row, [&json](const char* name, const auto& value) { json[name] = value; });
+  if (row.crossings > 0)
+    ResultRow::visit_crossing_fields(row,
+                                     [&json](const char* name, const auto& value) { json[name] = value; });
   if (!row.condition.empty()) json["condition"] = row.condition;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // NaN is written as null
 }
@@ -121,13 +134,19 @@ std::string to_json_line(const ResultRow& row) {
 std::string csv_header() {
   CsvWriter writer;
   const ResultRow row;
-  ResultRow::visit_fields(row, [&writer](const char* name, const auto&) { writer.cell(name); });
+  const auto name_cell = [&writer](const char* name, const auto&) { writer.cell(name); };
+  ResultRow::visit_fields(row, name_cell);
+  ResultRow::visit_crossing_fields(row, name_cell);
   return writer.take();
 }
 
 std::string to_csv_line(const ResultRow& row) {
   CsvWriter writer;
   ResultRow::visit_fields(row, writer);
+  if (row.crossings > 0)
+    ResultRow::visit_crossing_fields(row, writer);
+  else
+    ResultRow::visit_crossing_fields(row, [&writer](const char*, const auto&) { writer.cell(""); });
   return writer.take();
 }
 

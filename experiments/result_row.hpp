@@ -32,7 +32,12 @@ struct ResultRow {
   double control_us_median = kNotKnown, control_us_p99 = kNotKnown;                     ///< [us]
   int arrived_robots = 0, robots = 0;                                                   ///< in all trials
   double sim_seconds = 0.0, wall_seconds = 0.0;                                         ///< [s] in all trials
-  std::string condition;  ///< of a campaign; a row without one does not write it
+  // Of PED alone; a row without crossings does not write them. Over all trials.
+  int crossings = 0, crossings_ok = 0;  ///< ways of one robot through the place; in time, without contact
+  int contacts_moving = 0;              ///< contacts of robots that had not stood still for a second
+  int hits_while_standing = 0;          ///< by people, of robots that had; they do not react
+  double robot_minutes = 0.0;           ///< [min] that robots spent in the place
+  std::string condition;                ///< of a campaign; a row without one does not write it
 
   /// The only list of these fields.
   template <class Self, class Visitor>
@@ -69,6 +74,14 @@ struct ResultRow {
     visit("sim_seconds", self.sim_seconds);
     visit("wall_seconds", self.wall_seconds);
   }
+  template <class Self, class Visitor>
+  static void visit_crossing_fields(Self& self, Visitor&& visit) {
+    visit("crossings", self.crossings);
+    visit("crossings_ok", self.crossings_ok);
+    visit("contacts_moving", self.contacts_moving);
+    visit("hits_while_standing", self.hits_while_standing);
+    visit("robot_minutes", self.robot_minutes);
+  }
 };
 
 /// Condenses trials that differ in their number alone; `wall_seconds` is the sum over trials. Requires at
@@ -77,7 +90,8 @@ struct ResultRow {
 
 /// One JSON object in one line, without its line feed. Unknown numbers read null.
 [[nodiscard]] std::string to_json_line(const ResultRow& row);
-/// The names of the fields, and their values, as CSV lines with line feeds. Unknown numbers are empty.
+/// The names of the fields, and their values, as CSV lines with line feeds. Unknown numbers, and those of PED
+/// in other rows, are empty.
 [[nodiscard]] std::string csv_header();
 [[nodiscard]] std::string to_csv_line(const ResultRow& row);
 

@@ -42,8 +42,12 @@ std::string overtime_text(const sim::TrialResult& result) {
   std::string text;
   for (std::size_t i = 0; i < result.robots.size(); ++i) {
     const sim::RobotResult& robot = result.robots[i];
-    if (robot.arrived) continue;
+    if (robot.in_time) continue;
     text += (text.empty() ? "not home in time: robot " : "; robot ") + std::to_string(i);
+    if (robot.arrived) {
+      text += " (late, after " + fixed(robot.travel_time, 1) + " s)";
+      continue;
+    }
     const auto longest = std::max_element(robot.stood.begin(), robot.stood.end());
     if (*longest <= 0.0) continue;
     const StandReason reason = static_cast<StandReason>(longest - robot.stood.begin());
@@ -78,6 +82,17 @@ RobotRecord robot_record(const sim::RobotResult& robot) {
   return record;
 }
 
+CrossingRecord crossing_of(const sim::TrialResult& result) {
+  CrossingRecord crossing;
+  crossing.crossings = static_cast<int>(result.robots.size());
+  crossing.contacts_moving = static_cast<int>(result.contacts.size());
+  for (const sim::RobotResult& robot : result.robots) {
+    crossing.crossings_ok += robot.in_time && !robot.touched ? 1 : 0;
+    crossing.robot_minutes += robot.travel_time / 60.0;
+  }
+  return crossing;
+}
+
 }  // namespace
 
 TrialKey key_of(const Study& study, int trial) {
@@ -99,6 +114,7 @@ TrialRecord record_of(const Study& study, const sim::TrialResult& result) {
   if (!result.contacts.empty()) record.contact = contact_of(result.contacts.front());
   record.contacts = static_cast<int>(result.contacts.size());
   record.hits_while_standing = static_cast<int>(result.hits_while_standing.size());
+  if (study.recording) record.crossing = crossing_of(result);
   record.sim_time = result.sim_seconds;
   record.dynamic_distance = finite_or_unknown(result.dynamic_distance);
   record.dynamic_clearance = finite_or_unknown(result.dynamic_clearance);

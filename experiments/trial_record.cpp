@@ -96,6 +96,15 @@ CauseRecord cause_from_json(const Json& json) {
   return cause;
 }
 
+CrossingRecord crossing_from_json(const Json& json) {
+  CrossingRecord crossing;
+  crossing.crossings = json.at("crossings").get<int>();
+  crossing.crossings_ok = json.at("crossings_ok").get<int>();
+  crossing.contacts_moving = json.at("contacts_moving").get<int>();
+  crossing.robot_minutes = number_at(json, "robot_minutes");
+  return crossing;
+}
+
 TrialRecord record_from_json(const Json& json) {
   TrialRecord record;
   record.key.family = json.at("family").get<std::string>();
@@ -110,6 +119,7 @@ TrialRecord record_from_json(const Json& json) {
   if (json.contains("new_plan_time")) record.new_plan_time = histogram_at(json, "new_plan_time");
   if (json.contains("optimiser_time")) record.optimiser_time = histogram_at(json, "optimiser_time");
   if (json.contains("wheel_share")) record.wheel_share = number_at(json, "wheel_share");
+  if (json.contains("crossings")) record.crossing = crossing_from_json(json);
   if (json.contains("cause")) record.cause = cause_from_json(json.at("cause"));
   record.outcome = json.at("outcome").get<std::string>();
   record.failure = json.at("failure").get<std::string>();
@@ -152,6 +162,12 @@ std::string to_json_line(const TrialRecord& record) {
             {"plan_time", to_json(record.plan_time)},
             {"control_time", to_json(record.control_time)},
             {"wall_time", number(record.wall_time)}};
+  if (record.crossing) {  // only of PED
+    json["crossings"] = record.crossing->crossings;
+    json["crossings_ok"] = record.crossing->crossings_ok;
+    json["contacts_moving"] = record.crossing->contacts_moving;
+    json["robot_minutes"] = number(record.crossing->robot_minutes);
+  }
   // Only campaigns have these.
   if (!record.key.condition.empty()) json["condition"] = record.key.condition;
   if (!record.setup.empty()) json["setup"] = record.setup;

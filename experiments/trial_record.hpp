@@ -61,14 +61,23 @@ struct CauseRecord {
   int culprit = -1;          ///< id of the obstacle or peer behind the reason, -1 = none
 };
 
+/// Of a trial among recorded people (PED): a crossing is one robot on its way through.
+struct CrossingRecord {
+  int crossings = 0;
+  int crossings_ok = 0;        ///< in time and without a contact that counts
+  int contacts_moving = 0;     ///< of all robots; not of those that had stood still for a second
+  double robot_minutes = 0.0;  ///< [min] that robots spent in the place
+};
+
 struct TrialRecord {
   TrialKey key;
   std::string setup;    ///< of a campaign: hash over all settings of the trial but its number
   std::string outcome;  ///< success, collision, overtime
   std::optional<ContactRecord> contact;
-  int contacts = 0;             ///< in all, where contacts do not end a trial
-  int hits_while_standing = 0;  ///< by recorded people who do not react
-  double sim_time = 0.0;        ///< [s] simulated
+  int contacts = 0;                        ///< in all, where contacts do not end a trial
+  int hits_while_standing = 0;             ///< by recorded people who do not react
+  std::optional<CrossingRecord> crossing;  ///< of PED
+  double sim_time = 0.0;                   ///< [s] simulated
   double dynamic_distance =
       kNotKnown;  ///< [m] smallest, centre to a moving obstacle; unknown when there is none
   double dynamic_clearance = kNotKnown;  ///< [m] the same minus radii

@@ -27,6 +27,7 @@ ContactMonitor::ContactMonitor(const Scenario& scenario)
       free_(scenario.robots.size()),
       static_clearance_(scenario.robots.size(), kFarStatic),
       grid_{2.0 * scenario.robot.radius + kNearPeer + 2.0 * kPairMargin},
+      touching_static_(scenario.robots.size(), false),
       standing_time_(scenario.robots.size(), 0.0),
       dynamic_distance_{std::numeric_limits<double>::infinity()},
       dynamic_clearance_{dynamic_distance_},
@@ -38,6 +39,7 @@ void ContactMonitor::check(const Tick& tick, const std::vector<RobotTruth>& robo
   forgive_newcomers(robots, movers);
   note_standing(tick.dt, robots);
   for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (robots[i].gone) continue;
     check_movers(tick, i, robots[i], movers);
     if (!robots[i].wrecked) check_static(tick, i, robots[i]);
   }
@@ -68,42 +70,43 @@ void ContactMonitor::check_movers(const Tick& tick, std::size_t robot, const Rob
     }
     const std::pair<int, int> pair{static_cast<int>(robot), mover.id};
     if (distance >= sum) {
-      if (mover.person) being_hit_.erase(pair);
+      touching_movers_.erase(pair);
       continue;
     }
     if (truth.wrecked || (mover.person && forgiven_.count(pair) > 0)) continue;
+    if (!touching_movers_.insert(pair).second) continue;
     Contact contact = contact_of(tick, first_within(truth.motion, motion, sum).value_or(0.0), robot, truth);
     contact.other = mover.id;
     contact.other_speed = length(mover.motion) / Movers::kStep;
     contact.with = mover.person ? ContactWith::person : ContactWith::disc;
-    if (mover.person)
-      touch_person(robot, mover, contact);
-    else
-      contacts_.push_back(contact);
+    const bool stood = standing_time_[robot] >= kStandingTime;
+    (mover.person && stood ? hits_while_standing_ : contacts_).push_back(contact);
   }
-}
-
-void ContactMonitor::touch_person(std::size_t robot, const Mover& mover, const Contact& contact) {
-  if (!being_hit_.insert({static_cast<int>(robot), mover.id}).second) return;
-  const bool stood = standing_time_[robot] >= kStandingTime;
-  (stood ? hits_while_standing_ : contacts_).push_back(contact);
 }
 
 /// Both ends of the motion in a free disc: so is all of it. Otherwise it is looked at closely.
 void ContactMonitor::check_static(const Tick& tick, std::size_t robot, const RobotTruth& truth) {
   const double wanted = truth.arrived ? 0.0 : std::max(static_clearance_[robot], 0.0);
   const double bound = std::min(free_[robot].bound(truth.motion.from), free_[robot].bound(truth.motion.to));
-  if (bound > wanted) return;
+  if (bound > wanted) {
+    touching_static_[robot] = false;
+    return;
+  }
   const double clearance = shapes_.clearance(truth.motion.to, robot_radius_);
   free_[robot] = {truth.motion.to, clearance};
   if (!truth.arrived) static_clearance_[robot] = std::min(static_clearance_[robot], clearance);
-  if (clearance > length(truth.motion)) return;
-  if (const std::optional<Contact> found = shapes_.first_contact(truth.motion, robot_radius_)) {
+  if (clearance > length(truth.motion)) {
+    touching_static_[robot] = false;
+    return;
+  }
+  const std::optional<Contact> found = shapes_.first_contact(truth.motion, robot_radius_);
+  if (found && !touching_static_[robot]) {
     Contact contact = contact_of(tick, found->time, robot, truth);
     contact.with = found->with;
     contact.other = found->other;
     contacts_.push_back(contact);
   }
+  touching_static_[robot] = found.has_value();
 }
 
 void ContactMonitor::check_peers(const Tick& tick, const std::vector<RobotTruth>& robots) {
@@ -138,6 +141,7 @@ void ContactMonitor::refresh_pairs(const std::vector<RobotTruth>& robots) {
 void ContactMonitor::check_pair(const Tick& tick, const std::vector<RobotTruth>& robots, std::size_t i,
                                 std::size_t j) {
   if (robots[i].wrecked && robots[j].wrecked) return;
+  if (robots[i].gone || robots[j].gone) return;
   const double sum = 2.0 * robot_radius_;
   const double distance = swept_distance(robots[i].motion, robots[j].motion);
   if (!robots[i].arrived || !robots[j].arrived) peer_clearance_ = std::min(peer_clearance_, distance - sum);

@@ -54,7 +54,6 @@ class ContactMonitor {
   void check_peers(const Tick& tick, const std::vector<RobotTruth>& robots);
   void check_pair(const Tick& tick, const std::vector<RobotTruth>& robots, std::size_t i, std::size_t j);
   void refresh_pairs(const std::vector<RobotTruth>& robots);
-  void touch_person(std::size_t robot, const Mover& mover, const Contact& contact);
   void forgive_newcomers(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
   void note_standing(double dt, const std::vector<RobotTruth>& robots);
   [[nodiscard]] Contact contact_of(const Tick& tick, double share, std::size_t robot,
@@ -79,11 +78,12 @@ class ContactMonitor {
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // that may come near before centers_ are too old
   std::vector<Contact> contacts_;
   std::vector<Contact> hits_while_standing_;
-  std::vector<double> standing_time_;             // [s] by robot
-  std::set<int> people_present_;                  // ids in the last tick
-  std::set<std::pair<int, int>> forgiven_;        // (robot, person): appeared too near, not yet gone
-  std::set<std::pair<int, int>> being_hit_;       // (robot, person): counted once while it lasts
-  std::set<std::pair<int, int>> touching_pairs_;  // robots that have touched: counted once
+  std::vector<bool> touching_static_;              // by robot: counted once while it lasts
+  std::vector<double> standing_time_;              // [s] by robot
+  std::set<int> people_present_;                   // ids in the last tick
+  std::set<std::pair<int, int>> forgiven_;         // (robot, person): appeared too near, not yet gone
+  std::set<std::pair<int, int>> touching_movers_;  // (robot, mover): counted once while it lasts
+  std::set<std::pair<int, int>> touching_pairs_;   // robots that have touched: counted once
   double dynamic_distance_;
   double dynamic_clearance_;
   double peer_clearance_;

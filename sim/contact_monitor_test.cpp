@@ -150,6 +150,7 @@ TEST(ContactMonitor, ShortcutsFindWhatALookAtEverythingFinds) {
   ContactMonitor monitor{scenario};
   const StaticShapes shapes{scenario};
   std::size_t static_contacts = 0;
+  std::vector<bool> touching(kRobots, false);
   std::set<std::pair<std::size_t, std::size_t>> touched;
   std::vector<double> least(kRobots, ContactMonitor::kFarStatic);
   double least_peer = ContactMonitor::kNearPeer;
@@ -159,7 +160,9 @@ TEST(ContactMonitor, ShortcutsFindWhatALookAtEverythingFinds) {
       truth.velocity_world += 0.1 * random.normal2() - 0.002 * truth.motion.to;
       const double jump = i == 0 && tick % 500 == 0 ? 100.0 : 1.0;  // one leaves every margin at once
       truth.motion = {truth.motion.to, truth.motion.to + jump * kDt * truth.velocity_world};
-      static_contacts += shapes.first_contact(truth.motion, radius).has_value();
+      const bool touches = shapes.first_contact(truth.motion, radius).has_value();
+      static_contacts += touches && !touching[i];  // once while it lasts
+      touching[i] = touches;
       least[i] = std::min(least[i], shapes.clearance(truth.motion.to, radius));
     }
     for (std::size_t i = 0; i < kRobots; ++i)

@@ -1,21 +1,22 @@
 #include "sim/crowd.hpp"
 
 #include <algorithm>
-#include <map>
 
 namespace spf::sim {
 
-Crowd::Crowd(const std::vector<CrowdSample>& samples) {
-  std::map<int, std::size_t> index_of;
-  for (const CrowdSample& sample : samples) index_of.emplace(sample.id, 0);
-  for (auto& [id, index] : index_of) {
-    index = people_.size();
-    people_.push_back({id, 0, {}});
+Crowd::Crowd(const std::vector<CrowdSample>& samples, double longest_gap) {
+  std::vector<CrowdSample> sorted = samples;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const CrowdSample& a, const CrowdSample& b) { return a.id < b.id; });
+  for (const CrowdSample& sample : sorted) {
+    const bool goes_on = !presences_.empty() && presences_.back().id == sample.id &&
+                         sample.time - presences_.back().samples.back().time <= longest_gap;
+    if (!goes_on) presences_.push_back({sample.id, 0, {}});
+    presences_.back().samples.push_back(sample);
   }
-  for (const CrowdSample& sample : samples) people_[index_of.at(sample.id)].samples.push_back(sample);
 }
 
-Eigen::Vector2d Crowd::position(const Person& person, double time) {
+Eigen::Vector2d Crowd::position(const Presence& person, double time) {
   const std::vector<CrowdSample>& samples = person.samples;
   std::size_t next = person.cursor;
   while (next < samples.size() && samples[next].time <= time) ++next;

@@ -2,6 +2,7 @@
 // from the first to the last of them, and does not react. Frame: world.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "sim/scenario.hpp"
@@ -10,14 +11,17 @@ namespace spf::sim {
 
 class Crowd {
  public:
-  explicit Crowd(const std::vector<CrowdSample>& samples);
+  /// Who is unseen for longer than `longest_gap` [s] is away meanwhile.
+  explicit Crowd(const std::vector<CrowdSample>& samples,
+                 double longest_gap = std::numeric_limits<double>::infinity());
 
   /// Calls visit(id, from, to) for everybody who is there at `time` and still there at `time + step` [s], by
   /// ascending id, with the positions at both. Times must not go back.
   template <class Visit>
   void visit(double time, double step, Visit&& visit) {
-    for (Person& person : people_) {
-      if (person.samples.front().time > time || person.samples.back().time < time + step) continue;
+    for (Presence& person : presences_) {
+      if (person.samples.front().time > time + kRounding) continue;
+      if (person.samples.back().time < time + step - kRounding) continue;
       while (person.cursor + 2 < person.samples.size() && person.samples[person.cursor + 1].time <= time)
         ++person.cursor;
       visit(person.id, position(person, time), position(person, time + step));
@@ -25,14 +29,17 @@ class Crowd {
   }
 
  private:
-  struct Person {
+  static constexpr double kRounding = 1e-9;  // [s] of times that were shifted
+
+  /// A person from coming to going.
+  struct Presence {
     int id = 0;
     std::size_t cursor = 0;  // the sample at or before the time last asked for
     std::vector<CrowdSample> samples;
   };
-  [[nodiscard]] static Eigen::Vector2d position(const Person& person, double time);
+  [[nodiscard]] static Eigen::Vector2d position(const Presence& person, double time);
 
-  std::vector<Person> people_;  // by id
+  std::vector<Presence> presences_;  // by id, then by time
 };
 
 }  // namespace spf::sim

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sim/geometry.hpp"
+#include "sim/pedestrian_scene.hpp"
 #include "sim/uniform_grid.hpp"
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
@@ -240,6 +241,8 @@ bool draw_scene(Family family, RandomStream& random, const LayoutParameters& lay
       return draw_swap(random, layout, scenario);
     case Family::field:
       return draw_field(random, layout, scenario);
+    case Family::ped:
+      break;  // nothing is drawn: place_among_people()
   }
   return false;
 }
@@ -282,6 +285,20 @@ void make_platform(FamilySetup& setup) {
   setup.simulation.trial.arrival_distance = 0.03;
 }
 
+void make_pedestrian(FamilySetup& setup) {
+  setup.layout.robots = 4;
+  setup.layout.squares = setup.layout.discs = 0;
+  setup.robot.radius = 0.25;
+  setup.robot.max_speed = 1.5;
+  setup.robot.max_acceleration = 1.5;
+  setup.robot.max_wheel_speed = 2.2;
+  setup.robot.max_wheel_torque = 0.6;
+  setup.simulation.sensing.detections = DetectionQuality::noisy;
+  setup.simulation.trial.after_contact = AfterContact::go_on;
+  setup.simulation.trial.after_arrival = AfterArrival::leave;
+  setup.simulation.trial.latest_arrival = 2.0;
+}
+
 }  // namespace
 
 FamilySetup family_setup(Family family) {
@@ -311,6 +328,9 @@ FamilySetup family_setup(Family family) {
       setup.simulation.radio.range =
           20.0;  // two plans' length: what a robot hears must not grow with the fleet
       break;
+    case Family::ped:
+      make_pedestrian(setup);
+      break;
   }
   return setup;
 }
@@ -331,6 +351,11 @@ Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) 
     scenario.seed = seed;
     scenario.robot = checked.robot;
     scenario.simulation = checked.simulation;
+    if (checked.family == Family::ped) {
+      if (!checked.crowd) throw std::invalid_argument{"the family ped needs a recorded crowd"};
+      place_among_people(*checked.crowd, checked.layout, trial, scenario);
+      return scenario;
+    }
     RandomStream random{mix(trial_seed, static_cast<std::uint64_t>(attempt))};
     if (!draw_scene(checked.family, random, checked.layout, scenario)) continue;
     return scenario;

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "sim/crowd_recording.hpp"
 #include "sim/scenario.hpp"
 
 namespace spf::sim {
@@ -19,6 +21,7 @@ enum class Family {
   p8,       ///< the paper's platform: eight small robots in a walled arena (Fig. 8)
   swap,     ///< robots on a circle change places
   field,    ///< equal density at any number of robots
+  ped,      ///< robots cross a recorded crowd
 };
 
 }  // namespace spf::sim
@@ -26,13 +29,14 @@ enum class Family {
 namespace spf {
 template <>
 struct EnumNames<sim::Family> {
-  static constexpr std::array<std::pair<sim::Family, const char*>, 6> values{
+  static constexpr std::array<std::pair<sim::Family, const char*>, 7> values{
       {{sim::Family::t2, "t2"},
        {sim::Family::t2_hard, "t2_hard"},
        {sim::Family::f7, "f7"},
        {sim::Family::p8, "p8"},
        {sim::Family::swap, "swap"},
-       {sim::Family::field, "field"}}};
+       {sim::Family::field, "field"},
+       {sim::Family::ped, "ped"}}};
 };
 }  // namespace spf
 
@@ -57,6 +61,8 @@ struct LayoutParameters {
   double circle_per_robot = 1.5;   ///< [m] of circumference (swap: 1.5 crowded, 5 wide)
   double side_per_root = 5.0;      ///< [m] side of the field over the root of the robots (field)
   double robots_per_pillar = 4.0;  ///< [1] (field)
+  double window = 60.0;            ///< [s] of a recording, for each trial (ped)
+  double window_spacing = 5.0;     ///< [s] from the beginning of a window to that of the next (ped)
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -81,6 +87,9 @@ struct LayoutParameters {
           "side of the field over root of robots (field)");
     visit("robots_per_pillar", self.robots_per_pillar, "1", Range{0.1, 1e6},
           "robots for each static disc (field)");
+    visit("window", self.window, "s", Range{1.0, 1e5}, "part of the recording that a trial is (ped)");
+    visit("window_spacing", self.window_spacing, "s", Range{0.1, 1e5},
+          "from the beginning of a trial's window to that of the next (ped)");
   }
 };
 
@@ -90,6 +99,7 @@ struct FamilySetup {
   LayoutParameters layout;
   RobotParameters robot;
   SimulationParameters simulation;
+  std::shared_ptr<const CrowdRecording> crowd;  ///< of ped, which needs one; not among the fields
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -106,8 +116,9 @@ inline constexpr std::uint64_t kDefaultSeed = 20240501;
 [[nodiscard]] FamilySetup family_setup(Family family);
 [[nodiscard]] std::optional<Family> family_of(const std::string& name);
 
-/// Draws the scene of one trial. Throws std::invalid_argument when parameters are out of range, and
-/// std::runtime_error when a thousand attempts found no scene (too much for the place).
+/// Draws the scene of one trial. Throws std::invalid_argument when parameters are out of range or the crowd
+/// of ped is missing, and std::runtime_error when a thousand attempts found no scene (too much for the place)
+/// or the recording has no such window.
 [[nodiscard]] Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial);
 
 }  // namespace spf::sim

@@ -77,6 +77,7 @@ TEST(Families, T2ReproducesTheReferenceScenes) {
 
 TEST(Families, EveryFamilyDrawsUsableScenesOfItsSize) {
   for (const auto& [family, name] : EnumNames<Family>::values) {
+    if (family == Family::ped) continue;  // needs a recording: crowd_test.cpp
     const FamilySetup setup = family_setup(family);
     for (const int trial : {0, 1, 2, 10000, 10001}) {
       SCOPED_TRACE(std::string{name} + " " + std::to_string(trial));
@@ -146,6 +147,7 @@ TEST(Families, SimulationRobotIsLargerThanThePlatforms) {
 TEST(Families, RobotsStartAtRestFacingTheirGoals) {
   for (const auto& [family, name] : EnumNames<Family>::values) {
     SCOPED_TRACE(name);
+    if (family == Family::ped) continue;  // needs a recording: crowd_test.cpp
     for (const RobotTask& task : scene(family, 10000).robots) {
       const Eigen::Vector2d way = task.goal_world - task.start.position_world;
       const Eigen::Vector2d facing{std::cos(task.start.heading), std::sin(task.start.heading)};

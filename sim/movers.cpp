@@ -3,7 +3,7 @@
 namespace spf::sim {
 
 Movers::Movers(const Scenario& scenario)
-    : discs_{scenario}, crowd_{scenario.crowd}, person_radius_{scenario.crowd_radius} {}
+    : discs_{scenario}, crowd_{scenario.crowd, scenario.crowd_gap}, person_radius_{scenario.crowd_radius} {}
 
 void Movers::advance(double time) {
   discs_.advance();

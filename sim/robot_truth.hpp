@@ -12,6 +12,7 @@ struct RobotTruth {
   Motion motion;                                             ///< over the last tick
   bool arrived = false;                                      ///< has been at its goal once
   bool wrecked = false;                                      ///< stands after a contact (AfterContact::wreck)
+  bool gone = false;                                         ///< has left the place (AfterArrival::leave)
 };
 
 }  // namespace spf::sim

@@ -62,6 +62,7 @@ struct Scenario {
   std::vector<ObstacleState> discs;  ///< moving obstacles at t = 0, ids 0, 1, 2, ...
   std::vector<CrowdSample> crowd;    ///< recorded people, sorted by time
   double crowd_radius = 0.25;        ///< [m] of each person
+  double crowd_gap = kUnlimited;     ///< [s] who has no sample for longer is away meanwhile
   std::vector<RobotTask> robots;
   RobotParameters robot;  ///< all robots of a fleet are alike
   SimulationParameters simulation;

@@ -25,6 +25,11 @@ enum class DetectionQuality {
 enum class AfterContact {
   end,    ///< the trial ends
   wreck,  ///< the robot stays where it is, silent, and the others go on
+  go_on,  ///< all go on; every contact is counted once while it lasts
+};
+enum class AfterArrival {
+  stay,   ///< at its goal, and goes on dodging
+  leave,  ///< the place: it is gone
 };
 enum class TrackingMode {
   ideal,  ///< the robot is at its trajectory's point
@@ -51,8 +56,15 @@ struct EnumNames<sim::DetectionQuality> {
 };
 template <>
 struct EnumNames<sim::AfterContact> {
-  static constexpr std::array<std::pair<sim::AfterContact, const char*>, 2> values{
-      {{sim::AfterContact::end, "end"}, {sim::AfterContact::wreck, "wreck"}}};
+  static constexpr std::array<std::pair<sim::AfterContact, const char*>, 3> values{
+      {{sim::AfterContact::end, "end"},
+       {sim::AfterContact::wreck, "wreck"},
+       {sim::AfterContact::go_on, "go_on"}}};
+};
+template <>
+struct EnumNames<sim::AfterArrival> {
+  static constexpr std::array<std::pair<sim::AfterArrival, const char*>, 2> values{
+      {{sim::AfterArrival::stay, "stay"}, {sim::AfterArrival::leave, "leave"}}};
 };
 template <>
 struct EnumNames<sim::TrackingMode> {
@@ -154,9 +166,11 @@ struct RadioParameters {
 struct TrialParameters {
   TrackingMode tracking = TrackingMode::full;
   AfterContact after_contact = AfterContact::end;
+  AfterArrival after_arrival = AfterArrival::stay;
   double plant_rate = 200.0;      ///< [Hz] base tick: plant steps and contact sweeps; a multiple of 10
   double computing_delay = 0.0;   ///< [s] what planning knows of obstacles and peers is older by this
   double time_limit = 0.0;        ///< [s] 0 = the protocol's: max(120 s, 4 times the obstacle-free time)
+  double latest_arrival = 0.0;    ///< [1] times the obstacle-free time; a later one is none; 0 = any will do
   double arrival_distance = 0.1;  ///< [m]
   double arrival_speed = 0.2;     ///< [m/s]
 
@@ -164,14 +178,21 @@ struct TrialParameters {
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("tracking", self.tracking,
           "ideal: the robot is at its trajectory's point; full: controller and drive");
-    visit("after_contact", self.after_contact, "a contact ends the trial, or leaves wrecks behind");
+    visit("after_contact", self.after_contact,
+          "a contact ends the trial, leaves wrecks behind, or is counted and all go on");
+    visit("after_arrival", self.after_arrival, "robots stay at their goals, or leave the place");
     visit("plant_rate", self.plant_rate, "Hz", Range{50.0, 5000.0},
           "steps of the plant and of the contact sweep");
     visit("computing_delay", self.computing_delay, "s", Range{0.0, 5.0},
           "simulated time that a plan takes: it is committed by then, knowing what was sensed and heard "
           "before");
-    visit("time_limit", self.time_limit, "s", Range{0.0, 100000.0},
-          "a trial that takes longer is over time; 0 = max(120 s, 4 times the obstacle-free time)");
+    visit(
+        "time_limit", self.time_limit, "s", Range{0.0, 100000.0},
+        "a trial that takes longer is over time; 0 = max(120 s, 4 times the obstacle-free time), in ped the "
+        "window");
+    visit("latest_arrival", self.latest_arrival, "1", Range{0.0, 1000.0},
+          "a robot that takes longer than so many times its obstacle-free time counts as over time; 0 = any "
+          "time within the trial will do");
     visit("arrival_distance", self.arrival_distance, "m", Range{0.001, 100.0},
           "nearer to the goal has arrived");
     visit("arrival_speed", self.arrival_speed, "m/s", Range{0.001, 100.0}, "and slower than this");

@@ -75,6 +75,8 @@ void TrialMeter::finish(double time, const std::vector<RobotTruth>& robots, cons
     const double fastest = rest_to_rest_time(straight, robot_.max_speed, robot_.max_acceleration);
     robot.path_length_ratio = straight > 0.0 ? robot.path_length / straight : 1.0;
     robot.travel_time_ratio = fastest > 0.0 ? robot.travel_time / fastest : 1.0;
+    const double latest = parameters_.latest_arrival;
+    robot.in_time = robot.arrived && (latest <= 0.0 || robot.travel_time_ratio <= latest);
     if (robot.arrived) result.last_arrival = std::max(result.last_arrival, robot.travel_time);
     result.static_clearance = std::min(result.static_clearance, robot.static_clearance);
   }

@@ -22,6 +22,8 @@ inline constexpr std::size_t kStandReasons = static_cast<std::size_t>(StandReaso
 struct RobotResult {
   bool arrived = false;
   bool wrecked = false;
+  bool touched = false;              ///< had a contact that counts
+  bool in_time = false;              ///< arrived, no later than the trial's latest_arrival
   double travel_time = 0.0;          ///< [s]
   double path_length = 0.0;          ///< [m] of the true path
   double travel_time_ratio = 0.0;    ///< [1] over the obstacle-free rest-to-rest optimum

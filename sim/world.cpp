@@ -7,6 +7,8 @@
 namespace spf::sim {
 namespace {
 
+const Eigen::Vector2d kNowhere{1e12, 1e12};  // [m] neither seen nor in anybody's way
+
 /// Ticks between two events of a rate; at least one.
 long ticks_between(double plant_rate, double rate) {
   return std::max(1L, std::lround(plant_rate / rate));
@@ -83,7 +85,7 @@ void World::move() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     RobotTruth& truth = robots_[i];
     truth.motion.from = truth.pose.position_world;
-    if (truth.wrecked) {
+    if (truth.wrecked || truth.gone) {
       truth.velocity_world.setZero();
     } else if (ideal) {
       truth.pose = placements_[i].pose_world;
@@ -94,7 +96,7 @@ void World::move() {
       truth.velocity_world = plants_[i].state().twist_world.head<2>();
     }
     truth.motion.to = truth.pose.position_world;
-    positions_[i] = truth.pose.position_world;
+    positions_[i] = truth.gone ? kNowhere : truth.pose.position_world;
     if (!truth.pose.position_world.allFinite())
       throw std::runtime_error{"robot " + std::to_string(i) + " left the number line at " +
                                std::to_string(next_time()) + " s"};
@@ -114,6 +116,8 @@ void World::check() {
     if (contact.with == ContactWith::robot) robots_[index(contact.other)].wrecked = true;
   }
   meter_.moved(time() + dt, robots_);
+  if (scenario_.simulation.trial.after_arrival != AfterArrival::leave) return;
+  for (const int robot : arrivals()) robots_[index(robot)].gone = true;
 }
 
 bool World::finished() const {
@@ -134,10 +138,14 @@ TrialResult World::result() const {
   const bool ends = scenario_.simulation.trial.after_contact == AfterContact::end;
   if (ends && result.contacts.size() > 1) result.contacts.resize(1);
   result.hits_while_standing = hits_while_standing();
-  const bool all_arrived =
-      std::all_of(robots_.begin(), robots_.end(), [](const RobotTruth& truth) { return truth.arrived; });
+  for (const Contact& contact : result.contacts) {
+    result.robots[index(contact.robot)].touched = true;
+    if (contact.with == ContactWith::robot) result.robots[index(contact.other)].touched = true;
+  }
+  const bool all_in_time = std::all_of(result.robots.begin(), result.robots.end(),
+                                       [](const RobotResult& robot) { return robot.in_time; });
   result.outcome = !result.contacts.empty() ? TrialOutcome::collision
-                   : all_arrived            ? TrialOutcome::success
+                   : all_in_time            ? TrialOutcome::success
                                             : TrialOutcome::overtime;
   return result;
 }

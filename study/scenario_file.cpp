@@ -1,12 +1,17 @@
 #include "study/scenario_file.hpp"
 
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
 #include "config/parameter_text.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
+#include "sim/pedestrian_scene.hpp"
+#include "spf/math/random_stream.hpp"
+#include "study/crowd_file.hpp"
 
 namespace spf {
 namespace {
@@ -165,11 +170,36 @@ void check_drawn(const YamlNode& root, const Study& study, InputProblems& proble
   }
 }
 
+bool has_recording(const Study& study) {
+  return study.family == static_cast<SceneFamily>(static_cast<int>(sim::Family::ped));
+}
+
+/// Reads the recording that the study names. A path in the scenario file begins at that file, any other (of
+/// --set, of a campaign) at the working directory.
+void read_recording(const YamlNode& root, const std::string& file, Study& study, InputProblems& problems) {
+  const YamlNode* node = root.find("crowd");
+  if (node == nullptr || study.crowd.empty()) {
+    if (node == nullptr || node->kind == YamlKind::scalar)
+      problems.add(node == nullptr ? root.place : node->place,
+                   "crowd is missing: the family ped needs a recording, as in --set crowd=FILE.csv");
+    return;
+  }
+  std::filesystem::path path{study.crowd};
+  if (path.is_relative() && node->place.source == file)
+    path = std::filesystem::path{file}.parent_path() / path;
+  study.recording = read_crowd_file(path.lexically_normal().string(), node->place, problems);
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  if (!error) study.crowd = absolute.lexically_normal().string();
+}
+
 Study read_document(YamlNode root, const std::vector<Setting>& settings, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
   for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
   Study study = default_study(peek_family(root), peek(root, "method", Study{}.method));
+  const std::string file = root.place.source;
   read_parameters(root, study, problems);
+  if (root.kind == YamlKind::map && has_recording(study)) read_recording(root, file, study, problems);
   if (root.kind == YamlKind::map) {
     if (study.family == SceneFamily::explicit_scene)
       check_explicit(root, study, problems);
@@ -215,11 +245,44 @@ std::string to_yaml_text(const Study& study, bool explains) {
 sim::Scenario make_trial(const Study& study, int trial) {
   if (study.family != SceneFamily::explicit_scene) {
     const sim::Family family = static_cast<sim::Family>(static_cast<int>(study.family));
-    return sim::make_scenario({family, study.layout, study.robot, study.simulation}, study.seed, trial);
+    return sim::make_scenario({family, study.layout, study.robot, study.simulation, study.recording},
+                              study.seed, trial);
   }
   sim::Scenario scenario = explicit_scenario(study);
   scenario.trial = trial;
   return scenario;
+}
+
+std::optional<int> trial_count(const Study& study) {
+  if (!has_recording(study) || !study.recording) return std::nullopt;
+  return sim::pedestrian_trials(*study.recording, study.layout);
+}
+
+std::string trials_problem(const Study& study, int first, int trials) {
+  const std::optional<int> count = trial_count(study);
+  if (!count || first + trials <= *count) return "";
+  return "trial " + std::to_string(first + trials - 1) + " is beyond the recording " + study.crowd +
+         ", which has " + std::to_string(*count) + " windows of " + to_text(study.layout.window) +
+         " s: trials 0 to " + std::to_string(*count - 1);
+}
+
+std::string identity_text(const Study& study) {
+  if (!study.recording) return to_yaml_text(study);
+  std::uint64_t content = 0;
+  const auto add = [&content](double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    content = mix(content, bits);
+  };
+  for (const sim::CrowdSample& sample : study.recording->samples()) {
+    add(sample.time);
+    add(sample.id);
+    add(sample.position_world.x());
+    add(sample.position_world.y());
+  }
+  Study placeless = study;
+  placeless.crowd = to_text(content);
+  return to_yaml_text(placeless);
 }
 
 AgentParameters agent_parameters(const Study& study) {

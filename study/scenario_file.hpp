@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -142,7 +143,9 @@ struct Study {
   std::uint64_t seed = sim::kDefaultSeed;
   Method method = Method::space_time;
   sim::LayoutParameters layout;  ///< of a drawn family
-  ExplicitScene scene;           ///< of an explicit one
+  std::string crowd;             ///< of ped: path of the recording, absolute once read
+  std::shared_ptr<const sim::CrowdRecording> recording;  ///< what stands there; not among the fields
+  ExplicitScene scene;                                   ///< of an explicit one
   RobotParameters robot;
   sim::SimulationParameters simulation;
   AgentParameters agent;  ///< without its robot: that is `robot`
@@ -171,8 +174,16 @@ struct Setting {
 /// With `explains`, each with a comment.
 [[nodiscard]] std::string to_yaml_text(const Study& study, bool explains = false);
 
-/// Ground truth of trial k. Throws std::runtime_error when a family finds no scene for its layout.
+/// Ground truth of trial k. Throws std::runtime_error when a family finds no scene for its layout, or the
+/// recording has no such window.
 [[nodiscard]] sim::Scenario make_trial(const Study& study, int trial);
+
+/// How many trials there are: the windows of a recording; as many as one likes otherwise.
+[[nodiscard]] std::optional<int> trial_count(const Study& study);
+/// Why trials `first` to `first + trials - 1` cannot all be run, empty when they can.
+[[nodiscard]] std::string trials_problem(const Study& study, int first, int trials);
+/// Text that two studies share when all their trials are equal, wherever their recordings lie.
+[[nodiscard]] std::string identity_text(const Study& study);
 
 /// Parameters of every robot: `agent` with the study's robot. An observer whose pose_sigma or heading_sigma
 /// is 0 (the default, "as exact as the scenario says") is told the scenario's pose_noise; any other value
@@ -193,7 +204,12 @@ void Study::visit_fields(Self& self, Visitor&& visit) {
     ExplicitScene::visit_fields(self.scene, visit);
   } else {
     visit("robots", self.layout.robots, "1", Range{1, 10000}, "number of robots");
-    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
+    if (self.family == static_cast<SceneFamily>(static_cast<int>(sim::Family::ped)))
+      visit(
+          "crowd", self.crowd,
+          "recorded people: a CSV file (t_s, agent_id, x_m, y_m), beside the scenario file, or with --set in "
+          "the working directory (family: ped)");
+    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, kLayoutElsewhere};
     visit.group("layout", layout);
   }
   visit.group("robot", self.robot);

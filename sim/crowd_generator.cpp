@@ -1,0 +1,195 @@
+#include "sim/crowd_generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "spf/math/random_stream.hpp"
+
+namespace spf::sim {
+namespace {
+
+constexpr double kStep = 0.1;        // [s]
+constexpr double kRelaxation = 0.5;  // [s] in which people take up the velocity they want
+constexpr double kLookAhead = 3.0;   // [s]
+constexpr double kUrgency = 1.0;     // [s] a meeting this far ahead counts 1/e
+constexpr double kAvoiding = 4.0;    // [m/s^2] for a meeting at once and at kBodies
+constexpr double kPush = 6.0;        // [m/s^2] at touching bodies, and
+constexpr double kPushRange = 0.12;  // [m] the distance over which it falls to 1/e
+constexpr double kBodies = 0.5;      // [m] centres of two people who touch
+constexpr double kComfort = 0.25;    // [m] beyond that over which avoiding falls to 1/e
+constexpr double kHurry = 1.3;       // [1] fastest, in wanted speeds
+constexpr double kStrongest = 4.0;   // [m/s^2] nobody accelerates more
+constexpr double kEntryGap = 0.9;    // [m] from others where somebody comes in
+constexpr double kPairGap = 0.7;     // [m] between the two of a pair
+
+struct Walker {
+  int id = 0;
+  Eigen::Vector2d position;             // [m]
+  Eigen::Vector2d velocity;             // [m/s]
+  Eigen::Vector2d goal;                 // [m]
+  double wanted_speed = 1.3;            // [m/s]
+  std::optional<Eigen::Vector2d> stop;  // [m] where to stop on the way
+  double stop_left = 0.0;               // [s]
+  [[nodiscard]] bool standing() const { return !stop && stop_left > 0.0; }
+};
+
+/// What `self` does to keep clear of another: away from where the other would be nearest to it, the sooner
+/// and nearer the stronger; who would be hit head-on steps to the right. Bodies push apart.
+Eigen::Vector2d avoidance(const Walker& self, const Walker& other) {
+  const Eigen::Vector2d apart = self.position - other.position;
+  const Eigen::Vector2d closing = self.velocity - other.velocity;
+  const double distance = apart.norm();
+  Eigen::Vector2d push = Eigen::Vector2d::Zero();
+  if (distance > 1e-9 && distance < 2.0 * kBodies)
+    push = kPush * std::exp((kBodies - distance) / kPushRange) * apart / distance;
+  const double closing_square = closing.squaredNorm();
+  if (self.standing() || closing_square < 1e-4) return push;
+  const double time = -apart.dot(closing) / closing_square;
+  if (time <= 0.0 || time > kLookAhead) return push;
+  const Eigen::Vector2d nearest = apart + time * closing;
+  const Eigen::Vector2d to_the_right = Eigen::Vector2d{closing.y(), -closing.x()} / std::sqrt(closing_square);
+  const Eigen::Vector2d way_out = nearest + 0.1 * to_the_right;
+  const double strength =
+      kAvoiding * std::exp(-time / kUrgency + std::min(0.0, kBodies - nearest.norm()) / kComfort);
+  return push + strength * way_out.normalized();
+}
+
+class Plaza {
+ public:
+  Plaza(const CrowdGeneratorParameters& parameters, std::uint64_t seed)
+      : parameters_{parameters}, random_{mix(seed, 0x43524F5744ULL)} {
+    // Little's law: people at once = arrivals a second x time of a stay.
+    const double way = 0.9 * 0.5 * (parameters_.width + parameters_.height);
+    const double stay = way / parameters_.speed + parameters_.stops * 0.6 * parameters_.longest_stop;
+    const double arrivals = parameters_.people / stay / (1.0 + parameters_.pairs);
+    arrival_chance_ = 1.0 - std::exp(-arrivals * kStep);
+  }
+
+  void step() {
+    if (random_.uniform() < arrival_chance_) ++waiting_;
+    if (waiting_ > 0 && arrive()) --waiting_;
+    move();
+  }
+
+  /// The first sample begins the numbering, so that nobody has to know of the people before it.
+  void record(double time, std::vector<CrowdSample>& samples) {
+    for (Walker& walker : walkers_) {
+      if (walker.id == 0) walker.id = ++last_id_;
+      samples.push_back({time, walker.id, walker.position});
+    }
+  }
+
+ private:
+  Eigen::Vector2d on_side(int side, double share) const {
+    const Eigen::Vector2d size{parameters_.width, parameters_.height};
+    const int axis = side < 2 ? 0 : 1;
+    Eigen::Vector2d place = share * size;
+    place[axis] = side % 2 == 0 ? 0.0 : size[axis];
+    return place;
+  }
+
+  bool is_free(const Eigen::Vector2d& place) const {
+    return std::none_of(walkers_.begin(), walkers_.end(),
+                        [&](const Walker& walker) { return (walker.position - place).norm() < kEntryGap; });
+  }
+
+  /// Somebody, or two, come in at a side and want to leave at another, mostly the opposite one. False when
+  /// the entry is taken.
+  bool arrive() {
+    const int side = static_cast<int>(4.0 * random_.uniform());
+    const bool straight = random_.uniform() < 0.6;
+    const int turn = random_.uniform() < 0.5 ? 2 : 3;
+    const int leaving = straight ? (side ^ 1) : (side < 2 ? turn : turn - 2);
+    Walker walker;
+    walker.position = on_side(side, random_.uniform(0.1, 0.9));
+    walker.goal = on_side(leaving, random_.uniform(0.1, 0.9));
+    walker.wanted_speed = std::clamp(parameters_.speed + parameters_.speed_sigma * random_.normal(),
+                                     0.5 * parameters_.speed, 1.6 * parameters_.speed);
+    const bool pair = random_.uniform() < parameters_.pairs;
+    const bool stops = random_.uniform() < parameters_.stops;
+    const double stop_at = random_.uniform(0.3, 0.7);
+    const double stop_for = random_.uniform(0.2, 1.0) * parameters_.longest_stop;
+    if (stops) {
+      walker.stop = walker.position + stop_at * (walker.goal - walker.position);
+      walker.stop_left = stop_for;
+    }
+    const Eigen::Vector2d ahead = (walker.goal - walker.position).normalized();
+    walker.velocity = walker.wanted_speed * ahead;
+    const Eigen::Vector2d beside = kPairGap * Eigen::Vector2d{-ahead.y(), ahead.x()};
+    if (!is_free(walker.position) || (pair && !is_free(walker.position + beside))) return false;
+    walkers_.push_back(walker);
+    if (!pair) return true;
+    walker.position += beside;
+    walker.goal += beside;
+    if (walker.stop) *walker.stop += beside;
+    walkers_.push_back(walker);
+    return true;
+  }
+
+  Eigen::Vector2d wanted_velocity(Walker& walker) const {
+    if (walker.stop && (*walker.stop - walker.position).norm() < 0.4) walker.stop.reset();
+    if (walker.standing()) {
+      walker.stop_left -= kStep;
+      return Eigen::Vector2d::Zero();
+    }
+    return walker.wanted_speed * (walker.stop.value_or(walker.goal) - walker.position).normalized();
+  }
+
+  void move() {
+    std::vector<Eigen::Vector2d> accelerations;
+    for (Walker& walker : walkers_) {
+      Eigen::Vector2d acceleration = (wanted_velocity(walker) - walker.velocity) / kRelaxation;
+      for (const Walker& other : walkers_)
+        if (&other != &walker) acceleration += avoidance(walker, other);
+      const double size = acceleration.norm();
+      accelerations.push_back(size > kStrongest ? Eigen::Vector2d{acceleration * (kStrongest / size)}
+                                                : acceleration);
+    }
+    for (std::size_t i = 0; i < walkers_.size(); ++i) {
+      Walker& walker = walkers_[i];
+      walker.velocity += kStep * accelerations[i];
+      const double speed = walker.velocity.norm();
+      const double fastest = kHurry * walker.wanted_speed;
+      if (speed > fastest) walker.velocity *= fastest / speed;
+      walker.position += kStep * walker.velocity;
+    }
+    walkers_.erase(std::remove_if(walkers_.begin(), walkers_.end(),
+                                  [this](const Walker& walker) { return has_left(walker); }),
+                   walkers_.end());
+  }
+
+  /// Beyond a side, or where it wanted to go. Who comes in may begin a little outside.
+  [[nodiscard]] bool has_left(const Walker& walker) const {
+    constexpr double kOutside = 1.0;  // [m]
+    const Eigen::Vector2d size{parameters_.width, parameters_.height};
+    const double inside = std::min(walker.position.minCoeff(), (size - walker.position).minCoeff());
+    return inside < -kOutside || (walker.goal - walker.position).norm() < 0.3;
+  }
+
+  CrowdGeneratorParameters parameters_;
+  RandomStream random_;
+  double arrival_chance_ = 0.0;  // in a step
+  int waiting_ = 0;              // arrivals that found no free place yet
+  int last_id_ = 0;
+  std::vector<Walker> walkers_;
+};
+
+}  // namespace
+
+std::vector<CrowdSample> generate_crowd(const CrowdGeneratorParameters& parameters, std::uint64_t seed) {
+  const CrowdGeneratorParameters checked = validated(parameters);
+  Plaza plaza{checked, seed};
+  const double filling = 3.0 * (checked.width + checked.height) / checked.speed;  // [s] to the usual number
+  for (int i = 0; i < static_cast<int>(filling / kStep); ++i) plaza.step();
+  const int steps = static_cast<int>(std::floor(checked.duration / kStep + 1e-9));
+  const int every = std::max(1, static_cast<int>(std::lround(checked.sample_interval / kStep)));
+  std::vector<CrowdSample> samples;
+  for (int i = 0; i <= steps; ++i) {
+    if (i % every == 0) plaza.record(i * kStep, samples);
+    plaza.step();
+  }
+  return samples;
+}
+
+}  // namespace spf::sim

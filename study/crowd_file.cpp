@@ -1,0 +1,214 @@
+#include "study/crowd_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <system_error>
+#include <unordered_map>
+#include <vector>
+
+#include "config/parameter_text.hpp"
+
+namespace spf {
+namespace {
+
+constexpr double kFastest = 15.0;    // [m/s] faster than anybody runs
+constexpr double kFarthest = 1e5;    // [m]
+constexpr double kLatest = 1e7;      // [s]
+constexpr int kLargestId = 999'999;  // ids above are the simulator's own
+constexpr std::array<const char*, 4> kColumns{"t_s", "agent_id", "x_m", "y_m"};
+enum Column : std::size_t { kTime, kId, kX, kY };
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* kBlank = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Reads the lines one after the other; what is wrong with one does not hide the next.
+class CrowdReader {
+ public:
+  CrowdReader(const std::string& name, InputProblems& problems) : name_{name}, problems_{problems} {}
+
+  /// False when the columns are not there.
+  bool header(std::string_view line) {
+    ++line_;
+    if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+    const std::vector<std::string_view> names = fields_of(line);
+    bool complete = true;
+    for (std::size_t column = 0; column < kColumns.size(); ++column) {
+      const auto found = std::find(names.begin(), names.end(), kColumns[column]);
+      place_[column] = static_cast<std::size_t>(found - names.begin());
+      if (found != names.end()) continue;
+      refuse(std::string{"the column "} + kColumns[column] +
+             " is missing: the first line must name t_s, agent_id, x_m and y_m");
+      complete = false;
+    }
+    columns_ = names.size();
+    return complete;
+  }
+
+  void sample(std::string_view line) {
+    ++line_;
+    if (trimmed(line).empty()) return;
+    const std::vector<std::string_view> fields = fields_of(line);
+    if (fields.size() != columns_)
+      return refuse("has " + std::to_string(fields.size()) + " values, but the first line names " +
+                    std::to_string(columns_) + " columns");
+    const auto field = [&](Column column) { return fields[place_[column]]; };
+    const std::optional<double> time = number(kTime, field(kTime), "s", kLatest);
+    const std::optional<double> x = number(kX, field(kX), "m", kFarthest);
+    const std::optional<double> y = number(kY, field(kY), "m", kFarthest);
+    const std::optional<int> id = whole(field(kId));
+    if (!time || !x || !y || !id) return;
+    enter({*time, *id, {*x, *y}});
+  }
+
+  [[nodiscard]] std::vector<sim::CrowdSample> take() { return std::move(samples_); }
+
+ private:
+  struct Seen {
+    int line;
+    sim::CrowdSample sample;
+  };
+
+  void refuse(const std::string& sentence) { problems_.add({name_, line_, 0}, sentence); }
+
+  std::optional<double> number(Column column, std::string_view text, const char* unit, double limit) {
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const std::string key = std::string{kColumns[column]} + " = " + std::string{text};
+    if (text.empty() || rest != text.data() + text.size() || error == std::errc::invalid_argument)
+      refuse(key + " must be a number in " + unit);
+    else if (!(std::abs(value) <= limit) || error != std::errc{})
+      refuse(key + " " + limit_sentence({-limit, limit}, unit));
+    else
+      return value;
+    return std::nullopt;
+  }
+
+  std::optional<int> whole(std::string_view text) {
+    int value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (!text.empty() && error == std::errc{} && rest == text.data() + text.size() && value >= 0 &&
+        value <= kLargestId)
+      return value;
+    refuse("agent_id = " + std::string{text} + " must be a whole number in [0, " +
+           std::to_string(kLargestId) + "]");
+    return std::nullopt;
+  }
+
+  void enter(const sim::CrowdSample& sample) {
+    const std::string person = "agent_id = " + std::to_string(sample.id);
+    if (!samples_.empty() && sample.time < samples_.back().time)
+      return refuse("t_s = " + to_text(sample.time) + " must not be less than " +
+                    to_text(samples_.back().time) + ", the time before: samples are sorted by time");
+    const auto [known, is_new] = last_.try_emplace(sample.id, Seen{line_, sample});
+    if (!is_new) {
+      const sim::CrowdSample& before = known->second.sample;
+      const double duration = sample.time - before.time;
+      const double way = (sample.position_world - before.position_world).norm();
+      if (duration <= 0.0)
+        return refuse(person + " stands twice at t_s = " + to_text(sample.time) + " (first in line " +
+                      std::to_string(known->second.line) + ")");
+      if (way > kFastest * duration)
+        return refuse(person + " moves " + to_text(way) + " m in " + to_text(duration) +
+                      " s: must be at most " + to_text(kFastest) + " m/s");
+      known->second = {line_, sample};
+    }
+    samples_.push_back(sample);
+  }
+
+  const std::string& name_;
+  InputProblems& problems_;
+  int line_ = 0;
+  std::size_t columns_ = 0;
+  std::array<std::size_t, kColumns.size()> place_{};
+  std::vector<sim::CrowdSample> samples_;
+  std::unordered_map<int, Seen> last_;
+};
+
+}  // namespace
+
+std::shared_ptr<const sim::CrowdRecording> crowd_from_text(std::string_view text, const std::string& name,
+                                                           InputProblems& problems) {
+  InputProblems found;
+  CrowdReader reader{name, found};
+  bool first = true;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (!first)
+      reader.sample(line);
+    else if (!reader.header(line))
+      break;
+    first = false;
+  }
+  std::vector<sim::CrowdSample> samples = reader.take();
+  if (first) found.add({name, 0, 0}, "is empty: a recording has the columns t_s, agent_id, x_m and y_m");
+  if (!first && samples.empty() && found.empty())
+    found.add({name, 0, 0}, "holds nobody: no line but the first");
+  for (const InputProblem& problem : found.kept()) problems.add(problem.place, problem.sentence);
+  if (!found.empty()) return nullptr;
+  return std::make_shared<const sim::CrowdRecording>(std::move(samples));
+}
+
+std::shared_ptr<const sim::CrowdRecording> read_crowd_file(const std::string& path,
+                                                           const SourcePlace& asked_at,
+                                                           InputProblems& problems) {
+  constexpr std::uintmax_t kMostBytes = 512u << 20;
+  const auto refuse = [&](const std::string& why) {
+    problems.add(asked_at, "crowd = " + path + " " + why);
+    return nullptr;
+  };
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    return refuse("is no file: there is none of that name");
+  if (error) return refuse("cannot be read: " + error.message());
+  if (!std::filesystem::is_regular_file(status)) return refuse("is not a regular file");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error && size > kMostBytes)
+    return refuse("is larger than " + std::to_string(kMostBytes >> 20) + " MiB");
+  std::ifstream file{path, std::ios::binary};
+  std::ostringstream text;
+  if (file && size > 0) text << file.rdbuf();
+  if (!file) return refuse("cannot be opened for reading");
+  return crowd_from_text(text.str(), path, problems);
+}
+
+std::string crowd_text(const std::vector<sim::CrowdSample>& samples) {
+  std::string text = "t_s,agent_id,x_m,y_m\n";
+  const auto add = [&text](double value, int decimals, char end) {
+    std::array<char, 64> digits;
+    const std::to_chars_result done = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                                    std::chars_format::fixed, decimals);
+    text.append(digits.data(), done.ptr).push_back(end);
+  };
+  for (const sim::CrowdSample& sample : samples) {
+    add(sample.time, 2, ',');
+    text += std::to_string(sample.id) + ",";
+    add(sample.position_world.x(), 4, ',');
+    add(sample.position_world.y(), 4, '\n');
+  }
+  return text;
+}
+
+}  // namespace spf
