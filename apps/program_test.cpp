@@ -23,8 +23,8 @@ namespace spf {
 namespace {
 
 TEST_F(Program, ExplainsItself) {
-  for (const char* arguments :
-       {"--help", "run --help", "experiment --help", "report --help", "check --help", "parameters --help"}) {
+  for (const char* arguments : {"--help", "run --help", "experiment --help", "report --help", "check --help",
+                                "parameters --help", "crowd --help"}) {
     const Finished finished = run(arguments);
     EXPECT_EQ(finished.status, 0) << arguments;
     EXPECT_THAT(finished.out, HasSubstr("Examples:")) << arguments;
@@ -275,6 +275,28 @@ TEST_F(Program, ParameterPageIsUpToDate) {
   EXPECT_TRUE(first_made == made.end() && first_kept == kept.end())
       << "docs/parameters.md is old from line " << first_kept - kept.begin() + 1
       << " on; build the target spf_reference_files";
+}
+
+TEST_F(Program, MakesACrowdAndCrossesIt) {
+  const Finished made = run("crowd --out crowd.csv --seed 3 --people 6 --duration 61");
+  ASSERT_EQ(made.status, 0) << made.error;
+  EXPECT_THAT(made.out, HasSubstr("crowd.csv: "));
+  const std::string ped = "run '" + kSource + "/scenarios/ped.yaml' --set crowd=crowd.csv --quiet ";
+  const Finished crossed = run(ped + "--trials 1 --json row.jsonl --out results");
+  ASSERT_EQ(crossed.status, 0) << crossed.error;
+  EXPECT_THAT(crossed.out, HasSubstr("contacts while moving"));
+  const nlohmann::json row = nlohmann::json::parse(text_of(folder_ / "row.jsonl"));
+  EXPECT_EQ(row.at("crossings"), 4);
+  EXPECT_GT(row.at("robot_minutes"), 0.0);
+  // The resolved scenario is run again from anywhere.
+  EXPECT_EQ(run("run results/scenario.yaml --trials 1 --quiet").status, 0);
+  const Finished beyond = run(ped + "--trials 2");
+  EXPECT_EQ(beyond.status, 2);
+  EXPECT_THAT(beyond.error, HasSubstr("has 1 window of 60 s: trials 0 to 0"));
+  const Finished missing = run("run '" + kSource + "/scenarios/ped.yaml' --set crowd=nobody.csv");
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.error, HasSubstr("--set: crowd = nobody.csv is no file"));
+  EXPECT_EQ(run("crowd --out crowd.csv --people -1").status, 2);
 }
 
 }  // namespace

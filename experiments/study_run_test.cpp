@@ -3,6 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "spf/math/random_stream.hpp"
 
 namespace spf {
 namespace {
@@ -128,6 +133,39 @@ TEST(StudyRun, NamesItsTrials) {
   EXPECT_EQ(key.tracking, "ideal");
   EXPECT_EQ(key.seed, 5u);
   EXPECT_EQ(key.trial, 7);
+}
+
+/// Static clutter as in public benchmarks of ground robots: discs of 0.075 m at random on a lattice between
+/// two walls, some hundreds of them.
+std::string cluttered_corridor(std::uint64_t seed) {
+  RandomStream random{seed};
+  std::string text =
+      "family: explicit\n"
+      "robot: {radius: 0.2}\n"
+      "robots: [{start: [0, 2.25], goal: [12, 2.25]}]\n"
+      "walls: [{from: [-1, 0], to: [13, 0]}, {from: [-1, 4.5], to: [13, 4.5]}]\n"
+      "discs:\n";
+  for (int i = 0; i < 66; ++i)
+    for (int j = 1; j < 30; ++j)
+      if (random.uniform() < 0.16)
+        text += "  - {center: [" + std::to_string(1.0 + 0.15 * i) + ", " + std::to_string(0.15 * j) +
+                "], radius: 0.075}\n";
+  return text;
+}
+
+TEST(StudyRun, CrossesStaticClutterOfHundredsOfDiscs) {
+  // Clumps with lanes between them: the middle lane is kept clear in part, so that a way through exists.
+  std::string text = cluttered_corridor(4);
+  Study study = study_from_text(text, "clutter.yaml");
+  std::erase_if(study.scene.discs, [](const DiscEntry& disc) {
+    const double lane = 2.25 + 0.8 * std::sin(0.9 * disc.center.x());
+    return std::abs(disc.center.y() - lane) < 0.5;
+  });
+  EXPECT_GT(study.scene.discs.size(), 150U);
+  StudyRequest request;
+  const std::vector<TrialRecord> records = run_study(study, request);
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records.front().outcome, "success") << records.front().failure;
 }
 
 }  // namespace

@@ -262,8 +262,8 @@ std::string trials_problem(const Study& study, int first, int trials) {
   const std::optional<int> count = trial_count(study);
   if (!count || first + trials <= *count) return "";
   return "trial " + std::to_string(first + trials - 1) + " is beyond the recording " + study.crowd +
-         ", which has " + std::to_string(*count) + " windows of " + to_text(study.layout.window) +
-         " s: trials 0 to " + std::to_string(*count - 1);
+         ", which has " + std::to_string(*count) + (*count == 1 ? " window of " : " windows of ") +
+         to_text(study.layout.window) + " s: trials 0 to " + std::to_string(*count - 1);
 }
 
 std::string identity_text(const Study& study) {
