@@ -6,7 +6,7 @@
 
 #include "apps/run_summary.hpp"
 #include "apps/version.hpp"
-#include "experiments/parameter_text.hpp"
+#include "config/parameter_text.hpp"
 #include "report/table.hpp"
 
 namespace spf {

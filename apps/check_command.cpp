@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "apps/command.hpp"
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 #include "report/table.hpp"
 #include "sim/scenario.hpp"
 

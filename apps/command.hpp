@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/scenario_file.hpp"
+#include "study/scenario_file.hpp"
 
 namespace spf {
 

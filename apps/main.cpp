@@ -8,7 +8,7 @@
 
 #include "apps/command.hpp"
 #include "apps/version.hpp"
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 #include "experiments/results_folder.hpp"
 
 namespace {

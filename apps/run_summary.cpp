@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "apps/version.hpp"
-#include "experiments/parameter_text.hpp"
+#include "config/parameter_text.hpp"
 #include "report/table.hpp"
 
 namespace spf {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "experiments/result_row.hpp"
-#include "experiments/scenario_file.hpp"
 #include "experiments/trial_record.hpp"
+#include "study/scenario_file.hpp"
 
 namespace spf {
 

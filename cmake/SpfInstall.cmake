@@ -1,5 +1,8 @@
-# `cmake --install` puts the core where find_package(spf) finds it: target spf::spf, every room of spf/ but testing/.
-# Simulator, experiments and reports are not part of the package.
+# `cmake --install` puts the library where find_package(spf) finds it. The core is target spf::spf, every room of spf/ but
+# testing/, and needs Eigen alone. COMPONENTS of the package, each a folder or two of the repository:
+#   host        spf::host, spf::config     robots' hosts, and parameter files for them (needs yaml-cpp)
+#   simulator   spf::sim, spf::study       the world, and scenario files for it (needs host)
+# Experiments and reports are not part of the package.
 include(CMakePackageConfigHelpers)
 
 get_property(core_targets GLOBAL PROPERTY SPF_CORE_TARGETS)
@@ -8,13 +11,30 @@ add_library(spf::spf ALIAS spf_core)
 set_target_properties(spf_core PROPERTIES EXPORT_NAME spf)
 target_link_libraries(spf_core INTERFACE ${core_targets})
 
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spf)
+set(test_files PATTERN "testing" EXCLUDE PATTERN "test" EXCLUDE PATTERN "*_test.hpp" EXCLUDE)
+
+# spf_install_component(NAME rooms...): their libraries and headers, as export set spf_NAME.
+function(spf_install_component NAME)
+  foreach(room IN LISTS ARGN)
+    if(NOT TARGET spf_${room})
+      return()
+    endif()
+    install(TARGETS spf_${room} EXPORT spf_${NAME} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spf_rooms COMPONENT development
+      FILES_MATCHING PATTERN "*.hpp" ${test_files} PATTERN "test_data" EXCLUDE)
+  endforeach()
+  install(EXPORT spf_${NAME} FILE spf_${NAME}.cmake NAMESPACE spf:: DESTINATION ${package_dir} COMPONENT development)
+endfunction()
+
 if(PROJECT_IS_TOP_LEVEL)
-  set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spf)
   install(TARGETS spf_core ${core_targets} EXPORT spfTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
   install(EXPORT spfTargets NAMESPACE spf:: DESTINATION ${package_dir} COMPONENT development)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/spf/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spf COMPONENT development
-    FILES_MATCHING PATTERN "*.hpp" PATTERN "testing" EXCLUDE PATTERN "test" EXCLUDE PATTERN "*_test.hpp" EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" ${test_files})
+  spf_install_component(host host config)
+  spf_install_component(simulator sim study)
 
   configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/spfConfig.cmake.in
     ${PROJECT_BINARY_DIR}/spfConfig.cmake INSTALL_DESTINATION ${package_dir})

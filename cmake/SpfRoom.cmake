@@ -1,20 +1,29 @@
 # spf_room(NAME DEPENDS other rooms and libraries...)
 # One room of the house = one static library spf_NAME (alias spf::NAME) from the folder's *.cpp, and one
 # test program spf_NAME_tests from its *_test.cpp. TEST_DEPENDS are for the tests alone.
+# STANDARD is the C++ standard of its sources (default: 17), HEADERS that of its headers where users need less.
 # Every test carries the room's name as label, and by the name of its suite two more: `slow` for ...Slow (left out under
 # sanitizers) and `threads` for ...Threads (run under the thread sanitizer, built there by target spf_threads_tests).
 add_custom_target(spf_threads_tests)
 
 function(spf_room NAME)
-  cmake_parse_arguments(ROOM "" "STANDARD" "DEPENDS;TEST_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "STANDARD;HEADERS" "DEPENDS;TEST_DEPENDS" ${ARGN})
   if(NOT ROOM_STANDARD)
     set(ROOM_STANDARD 17)
+  endif()
+  if(NOT ROOM_HEADERS)
+    set(ROOM_HEADERS ${ROOM_STANDARD})
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(tests ${sources})
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
 
+  # Headers of spf/ are installed as they lie; those of other rooms, with their common names, below spf_rooms/.
+  set(below "")
+  if(NOT CMAKE_CURRENT_SOURCE_DIR STREQUAL "${PROJECT_SOURCE_DIR}/spf/${NAME}")
+    set(below /spf_rooms)
+  endif()
   set(target spf_${NAME})
   if(sources)
     add_library(${target} STATIC ${sources})
@@ -26,9 +35,9 @@ function(spf_room NAME)
   endif()
   add_library(spf::${NAME} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${NAME})
-  target_compile_features(${target} ${scope} cxx_std_${ROOM_STANDARD})
+  target_compile_features(${target} ${scope} cxx_std_${ROOM_HEADERS})
   target_include_directories(${target} ${scope}
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}${below}>)
   target_link_libraries(${target} ${scope} ${ROOM_DEPENDS})
   if(CMAKE_CURRENT_SOURCE_DIR STREQUAL "${PROJECT_SOURCE_DIR}/spf/${NAME}" AND NOT NAME STREQUAL "testing")
     set_property(GLOBAL APPEND PROPERTY SPF_CORE_TARGETS ${target})

@@ -7,10 +7,10 @@
 #include <set>
 #include <tuple>
 
-#include "experiments/closest_name.hpp"
-#include "experiments/parameter_text.hpp"
-#include "experiments/yaml_reader.hpp"
-#include "experiments/yaml_writer.hpp"
+#include "config/closest_name.hpp"
+#include "config/parameter_text.hpp"
+#include "config/yaml_reader.hpp"
+#include "config/yaml_writer.hpp"
 
 namespace spf {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/scenario_file.hpp"
 #include "experiments/trial_record.hpp"
+#include "study/scenario_file.hpp"
 
 namespace spf {
 

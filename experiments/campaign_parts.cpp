@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 #include "experiments/trial_log.hpp"
 
 namespace spf {

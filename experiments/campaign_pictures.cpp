@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/parameter_text.hpp"
+#include "config/parameter_text.hpp"
 #include "experiments/replay_export.hpp"
 #include "experiments/study_run.hpp"
 #include "report/chart_svg.hpp"

@@ -5,9 +5,9 @@
 
 #include <set>
 
+#include "config/parameter_text.hpp"
 #include "experiments/campaign_run.hpp"
 #include "experiments/paper_figures.hpp"
-#include "experiments/parameter_text.hpp"
 
 namespace spf {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/parameter_table.hpp"
-#include "experiments/scenario_file.hpp"
+#include "config/parameter_table.hpp"
+#include "study/scenario_file.hpp"
 
 namespace spf {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 
-#include "experiments/parameter_text.hpp"
+#include "config/parameter_text.hpp"
 #include "experiments/report_tables.hpp"
 #include "experiments/statistics.hpp"
 #include "report/chart_svg.hpp"

@@ -5,9 +5,9 @@
 #include <functional>
 #include <map>
 
+#include "config/parameter_text.hpp"
 #include "experiments/failure_cause.hpp"
 #include "experiments/paper_figures.hpp"
-#include "experiments/parameter_text.hpp"
 #include "experiments/statistics.hpp"
 #include "report/table.hpp"
 

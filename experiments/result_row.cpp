@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "experiments/parameter_text.hpp"
+#include "config/parameter_text.hpp"
 #include "experiments/statistics.hpp"
 
 namespace spf {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 #include "experiments/statistics.hpp"
 
 namespace spf {

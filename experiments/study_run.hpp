@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "experiments/scenario_file.hpp"
 #include "experiments/trial_record.hpp"
 #include "sim/trial_result.hpp"
+#include "study/scenario_file.hpp"
 
 namespace spf {
 

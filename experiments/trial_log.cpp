@@ -4,7 +4,7 @@
 #include <string>
 #include <system_error>
 
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 
 namespace spf {
 

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 
 namespace spf {
 namespace {

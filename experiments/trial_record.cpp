@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/input_problem.hpp"
+#include "config/input_problem.hpp"
 
 namespace spf {
 namespace {

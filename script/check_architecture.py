@@ -35,7 +35,7 @@ FORBIDDEN_WORDS = [
 ]
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]', re.MULTILINE)
 ROOM_CALL = re.compile(r"\bspf_room\s*\(([^)]*)\)")
-ROOM_KEYWORDS = {"STANDARD", "DEPENDS", "TEST_DEPENDS"}
+ROOM_KEYWORDS = {"STANDARD", "HEADERS", "DEPENDS", "TEST_DEPENDS"}
 # `static` up to the point where the declaration shows what it is: a function has its parenthesis first.
 STATIC = re.compile(r"\bstatic\b(?P<declaration>[^;={}()]*)(?P<end>[;={(])")
 # A variable at namespace scope; declarations there start in the first column (clang-format keeps it so).

@@ -535,5 +535,8 @@ const std::vector<ObstacleTrack>& RobotAgent::tracks() const {
 const std::vector<Peer>& RobotAgent::peers() const {
   return implementation_->peers;
 }
+std::uint64_t RobotAgent::message_count(MessageVerdict verdict) const {
+  return implementation_->peer_table.count(verdict);
+}
 
 }  // namespace spf

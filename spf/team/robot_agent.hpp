@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "spf/team/agent_parameters.hpp"
 #include "spf/world/observation.hpp"
 #include "spf/world/occupancy_map.hpp"
+#include "spf/world/peer_table.hpp"
 #include "spf/world/trajectory_message.hpp"
 
 namespace spf {
@@ -99,6 +101,8 @@ class RobotAgent {
   [[nodiscard]] const OccupancyMap& map() const;
   [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const;
   [[nodiscard]] const std::vector<Peer>& peers() const;
+  /// How many messages of peers got this verdict.
+  [[nodiscard]] std::uint64_t message_count(MessageVerdict verdict) const;
 
  private:
   struct Implementation;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace spf {
 namespace {
@@ -57,6 +58,35 @@ HeadingProfile::HeadingProfile(double start_time, const HeadingState& initial, d
   ramp_in_ = best.ramp_in;
   cruise_ = best.cruise;
   ramp_out_ = best.ramp_out;
+}
+
+std::optional<HeadingProfile> HeadingProfile::from_phases(const HeadingPhases& phases) {
+  constexpr double kTolerance = 1e-6;  // [rad] rounding of turns of many circles stays far below
+  const double parts[] = {phases.initial_heading, phases.target_heading, phases.initial_rate,
+                          phases.cruise_rate,     phases.ramp_in,        phases.cruise,
+                          phases.ramp_out,        phases.start_time};
+  for (const double part : parts)
+    if (!std::isfinite(part)) return std::nullopt;
+  if (phases.ramp_in < 0.0 || phases.cruise < 0.0 || phases.ramp_out < 0.0) return std::nullopt;
+  const double turned = 0.5 * (phases.initial_rate + phases.cruise_rate) * phases.ramp_in +
+                        phases.cruise_rate * (phases.cruise + 0.5 * phases.ramp_out);
+  const double miss = angle_difference(phases.initial_heading + turned, phases.target_heading);
+  if (!(std::abs(miss) <= kTolerance)) return std::nullopt;
+  HeadingProfile profile;
+  profile.start_time_ = phases.start_time;
+  profile.initial_heading_ = wrap_angle(phases.initial_heading);
+  profile.target_heading_ = wrap_angle(phases.target_heading);
+  profile.initial_rate_ = phases.initial_rate;
+  profile.cruise_rate_ = phases.cruise_rate;
+  profile.ramp_in_ = phases.ramp_in;
+  profile.cruise_ = phases.cruise;
+  profile.ramp_out_ = phases.ramp_out;
+  return profile;
+}
+
+HeadingPhases HeadingProfile::phases() const {
+  return {start_time_,  initial_heading_, target_heading_, initial_rate_,
+          cruise_rate_, ramp_in_,         cruise_,         ramp_out_};
 }
 
 HeadingState HeadingProfile::state(double time) const {

@@ -3,6 +3,8 @@
 // commits).
 #pragma once
 
+#include <optional>
+
 #include "spf/math/angles.hpp"
 
 namespace spf {
@@ -10,6 +12,19 @@ namespace spf {
 struct HeadingState {
   double heading = 0.0;   ///< [rad] (-pi, pi]
   double yaw_rate = 0.0;  ///< [rad/s]
+};
+
+/// The numbers of a HeadingProfile, for messages: three phases of constant yaw acceleration, from the initial
+/// rate to the cruise rate, cruise, and down to rest at the target.
+struct HeadingPhases {
+  double start_time = 0.0;       ///< [s]
+  double initial_heading = 0.0;  ///< [rad]
+  double target_heading = 0.0;   ///< [rad]
+  double initial_rate = 0.0;     ///< [rad/s]
+  double cruise_rate = 0.0;      ///< [rad/s]
+  double ramp_in = 0.0;          ///< [s] each >= 0
+  double cruise = 0.0;           ///< [s]
+  double ramp_out = 0.0;         ///< [s]
 };
 
 /// Turns from an initial heading and yaw rate to a target heading, at rest there, under limits of yaw rate
@@ -27,6 +42,11 @@ class HeadingProfile {
   /// first brought back to it.
   HeadingProfile(double start_time, const HeadingState& initial, double target_heading, double max_yaw_rate,
                  double max_yaw_acceleration);
+
+  /// There and back without loss. Nothing, when the numbers are no such turn: not finite, a negative phase,
+  /// or phases that do not end at the target (to 1e-6 rad).
+  [[nodiscard]] static std::optional<HeadingProfile> from_phases(const HeadingPhases& phases);
+  [[nodiscard]] HeadingPhases phases() const;
 
   [[nodiscard]] HeadingState state(double time) const;
   [[nodiscard]] double start_time() const { return start_time_; }

@@ -1,0 +1,43 @@
+// The parameter file of one robot: the keys of a scenario file that concern a robot (method, robot, agent),
+// and its host's. Read with the same checks and messages as scenario files.
+#pragma once
+
+#include <string>
+
+#include "config/hiding_visitor.hpp"
+#include "config/input_problem.hpp"
+#include "host/host_parameters.hpp"
+#include "spf/team/agent_parameters.hpp"
+
+namespace spf {
+
+/// A robot's file with all its defaults filled in.
+struct RobotFile {
+  Method method = Method::space_time;
+  RobotParameters robot;
+  AgentParameters agent;  ///< without its robot: that is `robot`
+  host::HostParameters host;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("method", self.method, "how the robot plans and tracks: a set of agent parameters");
+    visit.group("robot", self.robot);
+    PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{
+        self.agent, {"robot", "generator", "ideal_tracking"}};
+    visit.group("agent", agent);
+    visit.group("host", self.host);
+  }
+};
+
+/// Throws InputError with every problem. An empty path gives the defaults.
+[[nodiscard]] RobotFile read_robot_file(const std::string& path);
+/// The same from text; `name` stands for the file in messages.
+[[nodiscard]] RobotFile robot_file_from_text(const std::string& text, const std::string& name);
+
+/// The file that gives this, every key written out.
+[[nodiscard]] std::string to_yaml_text(const RobotFile& file, bool explains = false);
+
+/// What a host hands to its agent: `agent` with the file's robot.
+[[nodiscard]] AgentParameters agent_parameters(const RobotFile& file);
+
+}  // namespace spf

@@ -1,0 +1,201 @@
+#include "config/yaml_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <system_error>
+
+#include "config/closest_name.hpp"
+#include "config/parameter_text.hpp"
+
+namespace spf {
+namespace {
+
+std::string in_unit(const char* unit) {
+  return std::string_view{unit} == "1" ? "" : std::string{" in "} + unit;
+}
+
+/// The text of an unquoted scalar without a leading plus; nothing for other kinds.
+std::optional<std::string_view> plain_text(const YamlNode& node) {
+  if (node.kind != YamlKind::scalar || node.quoted || node.text.empty()) return std::nullopt;
+  std::string_view text = node.text;
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
+  return text;
+}
+
+bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), text) != words.end();
+}
+
+/// Why a text is no number: it may be a number with its unit.
+std::string no_number(std::string_view text, const char* rest, const char* kind, const char* unit) {
+  std::string sentence = std::string{"must be "} + kind + in_unit(unit);
+  const bool begins_with_number = rest != text.data() && text.find_first_of("0123456789") < 2;
+  const std::string_view tail = text.substr(static_cast<std::size_t>(rest - text.data()));
+  if (begins_with_number && tail.find_first_of(".0123456789,") == std::string_view::npos)
+    sentence += ", written without a unit";
+  return sentence;
+}
+
+std::optional<double> read_double(const ReadTarget& target, const char* unit, Range range) {
+  constexpr const char* kKind = "a number";
+  const std::optional<std::string_view> text = plain_text(target.node);
+  if (!text) {
+    target.refuse(std::string{"must be a number"} + in_unit(unit));
+    return std::nullopt;
+  }
+  double value = 0.0;
+  if (is_one_of(*text, {".inf", ".Inf", ".INF"})) {
+    value = std::numeric_limits<double>::infinity();
+  } else if (is_one_of(*text, {"-.inf", "-.Inf", "-.INF"})) {
+    value = -std::numeric_limits<double>::infinity();
+  } else if (is_one_of(*text, {".nan", ".NaN", ".NAN", "nan", "NaN", "NAN"})) {
+    target.refuse("must be a number" + in_unit(unit) + ", not NaN");
+    return std::nullopt;
+  } else {
+    const char* end = text->data() + text->size();
+    const auto [rest, error] = std::from_chars(text->data(), end, value);
+    const bool spelled_out =
+        text->find_first_of("iInN") != std::string_view::npos;  // from_chars knows "inf" and "nan"
+    if (error == std::errc::result_out_of_range) {
+      target.refuse("is too large or too small for a number; it " + limit_sentence(range, unit));
+      return std::nullopt;
+    }
+    if (error != std::errc{} || rest != end || spelled_out) {
+      target.refuse(no_number(*text, error == std::errc{} ? rest : text->data(), kKind, unit));
+      return std::nullopt;
+    }
+  }
+  if (std::isinf(value) && !(range.contains(value) && std::isinf(value > 0.0 ? range.high : range.low))) {
+    target.refuse(limit_sentence(range, unit) + " and be finite");
+    return std::nullopt;
+  }
+  if (!range.contains(value)) {
+    target.refuse(limit_sentence(range, unit));
+    return std::nullopt;
+  }
+  return value;
+}
+
+template <class Whole>
+void read_whole(const ReadTarget& target, const char* unit, Range range, Whole& value) {
+  const std::optional<std::string_view> text = plain_text(target.node);
+  if (!text) return target.refuse("must be a whole number" + in_unit(unit));
+  Whole read = 0;
+  const char* end = text->data() + text->size();
+  const auto [rest, error] = std::from_chars(text->data(), end, read);
+  if (error == std::errc::result_out_of_range && rest == end)
+    return target.refuse(limit_sentence(range, unit));
+  if (error != std::errc{} || rest != end)
+    return target.refuse(
+        no_number(*text, error == std::errc{} ? rest : text->data(), "a whole number", unit));
+  if (!range.contains(static_cast<double>(read))) return target.refuse(limit_sentence(range, unit));
+  value = read;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string last_part(const std::string& key) {
+  return key.substr(key.find_last_of('.') + 1);
+}
+
+}  // namespace
+
+void ReadTarget::refuse(const std::string& sentence) const {
+  problems.add(node.place, key + " = " + shown(node) + " " + sentence);
+}
+
+void read_value(const ReadTarget& target, const char* unit, Range range, double& value) {
+  if (const std::optional<double> read = read_double(target, unit, range)) value = *read;
+}
+
+void read_value(const ReadTarget& target, const char* unit, Range range, int& value) {
+  read_whole(target, unit, range, value);
+}
+
+void read_value(const ReadTarget& target, const char* unit, Range range, std::uint64_t& value) {
+  read_whole(target, unit, range, value);
+}
+
+void read_value(const ReadTarget& target, const char* unit, Range range, Eigen::Vector2d& value) {
+  if (target.node.kind != YamlKind::list || target.node.items.size() != 2)
+    return target.refuse("must be a pair [x, y]" + in_unit(unit));
+  Eigen::Vector2d read;
+  for (int axis = 0; axis < 2; ++axis) {
+    const ReadTarget part{target.node.items[static_cast<std::size_t>(axis)],
+                          target.key + "[" + std::to_string(axis) + "]", target.problems};
+    const std::optional<double> number = read_double(part, unit, range);
+    if (!number) return;
+    read[axis] = *number;
+  }
+  value = read;
+}
+
+void read_value(const ReadTarget& target, const char* unit, Range range, std::optional<double>& value) {
+  if (target.node.kind == YamlKind::scalar && !target.node.quoted && target.node.text == "none") {
+    value.reset();
+  } else if (const std::optional<double> read = read_double(target, unit, range)) {
+    value = *read;
+  }
+}
+
+void read_choice(const ReadTarget& target, bool& value) {
+  const std::optional<std::string_view> text = plain_text(target.node);
+  if (!text || !is_one_of(*text, {"true", "false"})) return target.refuse("must be true or false");
+  value = *text == "true";
+}
+
+void read_choice(const ReadTarget& target, std::string& value) {
+  if (target.node.kind != YamlKind::scalar) return target.refuse("must be text");
+  value = target.node.text;
+}
+
+std::optional<std::size_t> read_name(const ReadTarget& target, const std::vector<std::string>& names) {
+  const std::string& text = target.node.text;
+  if (target.node.kind == YamlKind::scalar)
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == text) return i;
+  const std::optional<std::string> meant = closest_name(text, names);
+  target.refuse("must be one of " + listed(names) + (meant ? "; did you mean " + *meant + "?" : ""));
+  return std::nullopt;
+}
+
+const YamlNode* FieldReader::take(const char* name) {
+  known_.emplace_back(name);
+  return map_.find(name);
+}
+
+const YamlNode* FieldReader::take_list(const char* name) {
+  const YamlNode* node = take(name);
+  if (node == nullptr || node->kind == YamlKind::list) return node;
+  ReadTarget{*node, prefix_ + name, problems_}.refuse("must be a list");
+  return nullptr;
+}
+
+void FieldReader::required(const char* name) {
+  if (map_.find(name) == nullptr) problems_.add(map_.place, prefix_ + name + " is missing");
+}
+
+void FieldReader::finish() {
+  for (const YamlEntry& entry : map_.entries) {
+    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    std::optional<std::string> meant = closest_name(entry.key, known_);
+    if (meant) meant = prefix_ + *meant;
+    if (!meant)  // perhaps the key of another group
+      for (const std::string& key : all_keys_)
+        if (!meant && last_part(key) == entry.key) meant = key;
+    YamlNode key;
+    key.kind = YamlKind::scalar;
+    key.text = entry.key;
+    problems_.add(entry.key_place, prefix_ + shown(key) + " = " + shown(entry.value) + " is not a known key" +
+                                       (meant ? "; did you mean " + *meant + "?" : ""));
+  }
+}
+
+}  // namespace spf

@@ -1,0 +1,56 @@
+// What the hosts of a real robot must know beyond its agent: which data the robot relies on, and what no
+// honest sensor, clock or peer would say.
+#pragma once
+
+#include "spf/math/parameters.hpp"
+
+namespace spf::host {
+
+struct HostParameters {
+  bool relies_on_scan = true;        ///< stands without fresh scans
+  bool relies_on_obstacles = true;   ///< stands without fresh reports of moving obstacles
+  double plan_silence = 0.5;         ///< [s] without a word of the planner until the tracker brakes
+  double largest_plan_error = 0.6;   ///< [m] farther from its plan the tracker stands and waits for a new one
+  double jump_distance = 0.5;        ///< [m] beyond what the robot can drive: the pose has jumped
+  double jump_heading = 0.5;         ///< [rad] likewise
+  double jump_persistence = 0.5;     ///< [s] a jump that lasts is believed: the robot was relocalised
+  double clock_error = 0.1;          ///< [s] by which a stamp may be ahead of the clock
+  double clock_jump = 1.0;           ///< [s] between two steps: beyond, the clock has jumped
+  double largest_peer_radius = 2.0;  ///< [m] messages of larger peers are malformed
+  double largest_peer_sigma = 1.0;   ///< [m] likewise of those who do not know where they are
+  double largest_peer_speed = 10.0;  ///< [m/s] likewise of faster ones
+  double grid_size = 40.0;           ///< [m] side of the sensed map, around the start, where no map is given
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("relies_on_scan", self.relies_on_scan, "the robot stands without fresh scans");
+    visit("relies_on_obstacles", self.relies_on_obstacles,
+          "the robot stands without fresh reports of moving obstacles, empty ones included");
+    visit("plan_silence", self.plan_silence, "s", Range{0.05, 10.0},
+          "without a word of the planner for this long the tracker brakes");
+    visit("largest_plan_error", self.largest_plan_error, "m", Range{0.05, 100.0},
+          "farther from its plan the tracker stands and waits for a new one");
+    visit("jump_distance", self.jump_distance, "m", Range{0.01, 1000.0},
+          "a pose farther from where the robot can be is a jump");
+    visit("jump_heading", self.jump_heading, "rad", Range{0.01, 6.3}, "likewise its heading");
+    visit("jump_persistence", self.jump_persistence, "s", Range{0.0, 60.0},
+          "a jump that lasts for so long is believed: the robot was relocalised");
+    visit("clock_error", self.clock_error, "s", Range{0.0, 10.0},
+          "stamps may be ahead of the clock by so much");
+    visit("clock_jump", self.clock_jump, "s", Range{0.1, 60.0},
+          "a longer step of the clock, or one backwards, is a jump");
+    visit("largest_peer_radius", self.largest_peer_radius, "m", Range{0.01, 100.0},
+          "messages of larger peers are malformed");
+    visit("largest_peer_sigma", self.largest_peer_sigma, "m", Range{0.0, 100.0},
+          "messages of peers that are less sure of their place are malformed");
+    visit("largest_peer_speed", self.largest_peer_speed, "m/s", Range{0.1, 100.0},
+          "messages of faster peers are malformed");
+    visit("grid_size", self.grid_size, "m", Range{1.0, 1000.0},
+          "side of the sensed map, around the start, where no map is given");
+  }
+};
+
+/// No robot is farther from the origin of its frame [m].
+inline constexpr double kFarthest = 1e6;
+
+}  // namespace spf::host

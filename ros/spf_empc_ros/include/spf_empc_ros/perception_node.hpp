@@ -1,0 +1,54 @@
+// PerceptionHost on ROS: scans and reports of obstacles in, observations for the planner out; map and tracks
+// for people. Topics: docs/ros.md.
+#pragma once
+
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <ros/timer.h>
+#include <sensor_msgs/LaserScan.h>
+#include <spf_empc_msgs/ObstacleTracks.h>
+
+#include <string>
+#include <vector>
+
+#include "host/perception_host.hpp"
+#include "spf_empc_ros/clock_edge.hpp"
+#include "spf_empc_ros/diagnostics.hpp"
+#include "spf_empc_ros/frames.hpp"
+#include "spf_empc_ros/robot_config.hpp"
+
+namespace spf_empc_ros {
+
+class PerceptionNode {
+ public:
+  /// `node` is in the robot's namespace; its callback queue must be served by one thread.
+  PerceptionNode(ros::NodeHandle node, const RobotConfig& config, const ros::Time& start);
+
+ private:
+  void on_pose(const nav_msgs::Odometry::ConstPtr& odometry);
+  void on_scan(const sensor_msgs::LaserScan::ConstPtr& scan);
+  void on_obstacles(const spf_empc_msgs::ObstacleTracks::ConstPtr& tracks);
+  void on_map(const nav_msgs::OccupancyGrid::ConstPtr& map);
+  void publish(const std::optional<spf::host::SensedWorld>& sensed, const char* what);
+  void show();
+  void refuse(const char* what, const std::string& why);
+  [[nodiscard]] double now() const { return clock_.seconds(ros::Time::now()); }
+
+  ros::NodeHandle node_;
+  RobotConfig config_;
+  ClockEdge clock_;
+  spf::host::PerceptionHost host_;
+  Frames frames_;
+  Diagnostics diagnostics_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Publisher observation_, grid_, tracks_;
+  ros::Timer timer_;
+  std::string base_frame_;
+  std::string last_refusal_;
+  std::uint32_t refused_ = 0;
+};
+
+}  // namespace spf_empc_ros

@@ -1,0 +1,64 @@
+// PlannerHost on ROS: poses, observations, peers' trajectories and goals in; the robot's own trajectory, its
+// broadcast, status and pictures out. Topics: docs/ros.md.
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <ros/timer.h>
+#include <spf_empc_msgs/Observation.h>
+#include <spf_empc_msgs/Trajectory.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/Empty.h>
+
+#include <string>
+#include <vector>
+
+#include "host/planner_host.hpp"
+#include "spf_empc_ros/clock_edge.hpp"
+#include "spf_empc_ros/diagnostics.hpp"
+#include "spf_empc_ros/frames.hpp"
+#include "spf_empc_ros/robot_config.hpp"
+#include "spf_empc_ros/stop_switch.hpp"
+
+namespace spf_empc_ros {
+
+class PlannerNode {
+ public:
+  /// `node` is in the robot's namespace; its callback queue must be served by one thread.
+  PlannerNode(ros::NodeHandle node, const RobotConfig& config, const ros::Time& start);
+
+ private:
+  void on_pose(const nav_msgs::Odometry::ConstPtr& odometry);
+  void on_observation(const spf_empc_msgs::Observation::ConstPtr& observation);
+  void on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory);
+  void on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal);
+  void on_map(const nav_msgs::OccupancyGrid::ConstPtr& map);
+  void on_cancel(const std_msgs::Empty::ConstPtr& cancel);
+  void step();
+  void publish_plan(const spf::host::PlannerOutput& output);
+  void publish_status(const ros::Time& now, double plan_ms);
+  void publish_pictures(double now);
+  void report(const ros::Time& now);
+  void refuse(const char* what, const std::string& why);
+  [[nodiscard]] double now() const { return clock_.seconds(ros::Time::now()); }
+
+  ros::NodeHandle node_;
+  RobotConfig config_;
+  ClockEdge clock_;
+  spf::host::PlannerHost host_;
+  Frames frames_;
+  Diagnostics diagnostics_;
+  StopSwitch switch_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Publisher trajectory_, broadcast_, status_, path_, markers_;
+  ros::Timer timer_;
+  double next_picture_ = 0.0;  // [s]
+  double next_status_ = 0.0;   // [s]
+  std::string last_refusal_;
+};
+
+}  // namespace spf_empc_ros

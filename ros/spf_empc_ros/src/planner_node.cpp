@@ -1,0 +1,203 @@
+#include "spf_empc_ros/planner_node.hpp"
+
+#include <nav_msgs/Path.h>
+#include <ros/console.h>
+#include <spf_empc_msgs/RobotStatus.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <cmath>
+
+#include "spf_empc_ros/conversions.hpp"
+#include "spf_empc_ros/display.hpp"
+
+namespace spf_empc_ros {
+namespace {
+
+constexpr double kStepPeriod = 0.01;    // [s] as fast as poses come
+constexpr double kPicturePeriod = 0.2;  // [s]
+constexpr double kStatusPeriod = 0.5;   // [s] while there is no agent
+const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
+
+/// Numbers messages so that a later process begins higher: hundredths of a second of ROS time.
+std::uint32_t first_sequence(const ros::Time& start) {
+  return start.sec * 100U + start.nsec / 10000000U;
+}
+
+}  // namespace
+
+PlannerNode::PlannerNode(ros::NodeHandle node, const RobotConfig& config, const ros::Time& start)
+    : node_{std::move(node)},
+      config_{config},
+      clock_{start},
+      host_{config.robot_id, config.agent, config.file.host, first_sequence(start)},
+      diagnostics_{node_, config.robot_id, "planner"},
+      switch_{node_, [this](bool paused, bool stop) {
+                host_.set_paused(paused);
+                host_.set_emergency_stop(stop);
+              }} {
+  if (!config_.waits_for_map) host_.go_without_map();
+  trajectory_ = node_.advertise<spf_empc_msgs::Trajectory>("trajectory", 10);
+  broadcast_ = node_.advertise<spf_empc_msgs::Trajectory>("/swarm/trajectories", 50);
+  status_ = node_.advertise<spf_empc_msgs::RobotStatus>("status", 10);
+  path_ = node_.advertise<nav_msgs::Path>("path", 2);
+  markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  subscribers_ = {node_.subscribe("odom", 50, &PlannerNode::on_pose, this, kNoDelay),
+                  node_.subscribe("observation", 10, &PlannerNode::on_observation, this, kNoDelay),
+                  node_.subscribe("/swarm/trajectories", 200, &PlannerNode::on_peer, this, kNoDelay),
+                  node_.subscribe("goal", 5, &PlannerNode::on_goal, this),
+                  node_.subscribe("/map", 1, &PlannerNode::on_map, this),
+                  node_.subscribe("cancel", 5, &PlannerNode::on_cancel, this)};
+  timer_ = node_.createTimer(ros::Duration{kStepPeriod}, [this](const ros::TimerEvent&) { step(); });
+}
+
+void PlannerNode::refuse(const char* what, const std::string& why) {
+  last_refusal_ = std::string{what} + ": " + why;
+  ROS_WARN_THROTTLE(1.0, "%s", last_refusal_.c_str());
+}
+
+// ---- in
+// -----------------------------------------------------------------------------------------------------
+
+void PlannerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
+  const Converted<spf::Pose2> pose = from_message(odometry->pose.pose);
+  const Converted<spf::Pose2> frame =
+      frames_.place(odometry->header.frame_id, config_.frame, odometry->header.stamp);
+  if (!pose || !frame) {
+    host_.count_refused_input();
+    return refuse("odom", pose ? frame.refusal : pose.refusal);
+  }
+  const spf::host::PoseVerdict verdict =
+      host_.add_pose({clock_.seconds(odometry->header.stamp), compose(*frame, *pose)}, now());
+  if (!believed(verdict)) refuse("odom", to_string(verdict));
+}
+
+void PlannerNode::on_observation(const spf_empc_msgs::Observation::ConstPtr& observation) {
+  Converted<spf::host::SensedWorld> sensed = from_message(*observation, clock_, config_.frame);
+  if (!sensed) {
+    host_.count_refused_input();
+    return refuse("observation", sensed.refusal);
+  }
+  const spf::host::ObservationVerdict verdict = host_.add_observation(std::move(*sensed.value), now());
+  if (verdict != spf::host::ObservationVerdict::accepted) refuse("observation", to_string(verdict));
+}
+
+void PlannerNode::on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
+  if (trajectory->robot_id == static_cast<std::uint32_t>(config_.robot_id)) return;
+  const Converted<ToldTrajectory> told = from_message(*trajectory, clock_, config_.frame);
+  if (!told) {
+    host_.count_malformed_message();
+    return refuse("/swarm/trajectories", told.refusal);
+  }
+  if (host_.add_message(told->message, now()) == spf::MessageVerdict::malformed)
+    refuse("/swarm/trajectories", "out of range");
+}
+
+void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
+  const Converted<spf::Pose2> pose = from_message(goal->pose);
+  const Converted<spf::Pose2> frame =
+      frames_.place(goal->header.frame_id.empty() ? config_.frame : goal->header.frame_id, config_.frame,
+                    goal->header.stamp);
+  if (!pose || !frame) {
+    host_.count_refused_input();
+    return refuse("goal", pose ? frame.refusal : pose.refusal);
+  }
+  const spf::Pose2 place = compose(*frame, *pose);
+  if (!host_.set_goal({place.position_world, place.heading})) refuse("goal", "beyond all robots");
+}
+
+void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
+  if (!config_.waits_for_map) return;
+  Converted<spf::OccupancyMap> known = from_message(*map, config_.frame, config_.agent.occupancy);
+  if (!known) {
+    host_.count_refused_input();
+    return refuse("/map", known.refusal);
+  }
+  host_.set_map(std::move(*known.value));
+}
+
+void PlannerNode::on_cancel(const std_msgs::Empty::ConstPtr&) {
+  host_.cancel();
+}
+
+// ---- out
+// ----------------------------------------------------------------------------------------------------
+
+void PlannerNode::step() {
+  const ros::WallTime begun = ros::WallTime::now();
+  const ros::Time time = ros::Time::now();
+  const double seconds = clock_.seconds(time);
+  const spf::host::PlannerOutput& output = host_.step(seconds);
+  const double plan_ms = 1e3 * (ros::WallTime::now() - begun).toSec();
+  if (output.planned) publish_plan(output);
+  const bool back = next_status_ > seconds + kStatusPeriod;  // the clock has jumped
+  if (output.planned || seconds >= next_status_ || back) {
+    next_status_ = seconds + kStatusPeriod;
+    publish_status(time, output.planned ? plan_ms : 0.0);
+    report(time);
+  }
+  if (seconds >= next_picture_ || next_picture_ > seconds + kPicturePeriod) {
+    next_picture_ = seconds + kPicturePeriod;
+    publish_pictures(seconds);
+  }
+}
+
+void PlannerNode::publish_plan(const spf::host::PlannerOutput& output) {
+  const std::optional<double> observed =
+      std::isfinite(output.observed) ? std::optional<double>{output.observed} : std::nullopt;
+  trajectory_.publish(to_message(ToldTrajectory{output.plan, observed}, clock_, config_.frame));
+  if (output.broadcast)
+    broadcast_.publish(to_message(ToldTrajectory{*output.broadcast, observed}, clock_, config_.frame));
+}
+
+void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {
+  const spf::host::PlannerStatus status = host_.status();
+  const spf::host::PlannerCounts counts = host_.counts();
+  spf_empc_msgs::RobotStatus message;
+  message.header.stamp = now;
+  message.header.frame_id = config_.frame;
+  message.robot_id = static_cast<std::uint32_t>(config_.robot_id);
+  message.state = static_cast<std::uint8_t>(status.state);
+  message.reason = status.reason;
+  message.culprit = status.culprit;
+  message.has_goal = host_.goal().has_value();
+  if (host_.goal()) {
+    message.goal.x = host_.goal()->position_world.x();
+    message.goal.y = host_.goal()->position_world.y();
+  }
+  if (host_.agent() != nullptr) message.outcome = spf::to_string(host_.agent()->last_plan().outcome);
+  message.plan_ms = plan_ms;
+  message.plans = counts.plans;
+  message.messages_accepted = counts.messages_accepted;
+  message.messages_malformed = counts.messages_malformed;
+  message.messages_old = counts.messages_old;
+  message.inputs_refused = counts.inputs_refused;
+  message.clock_jumps = host_.clock_jumps();
+  status_.publish(message);
+}
+
+void PlannerNode::publish_pictures(double now) {
+  if (host_.agent() == nullptr) return;
+  if (path_.getNumSubscribers() > 0)
+    path_.publish(path_message(host_.agent()->committed(), now, clock_, config_.frame));
+  if (markers_.getNumSubscribers() > 0)
+    markers_.publish(marker_message(*host_.agent(), now, clock_, config_.frame));
+}
+
+void PlannerNode::report(const ros::Time& now) {
+  const spf::host::PlannerStatus status = host_.status();
+  if (!diagnostics_.due(now, status.reason)) return;
+  Health health = Health::ok;
+  if (status.state == spf::PeerState::stopped) health = Health::standing;
+  if (!host_.fault().empty()) health = Health::missing;
+  if (status.state == spf::PeerState::arrived || !host_.goal())
+    health = host_.fault().empty() ? Health::ok : health;
+  Diagnostics::Values values{{"plans", std::to_string(host_.counts().plans)},
+                             {"inputs refused", std::to_string(host_.counts().inputs_refused)},
+                             {"messages malformed", std::to_string(host_.counts().messages_malformed)},
+                             {"clock jumps", std::to_string(host_.clock_jumps())}};
+  if (status.culprit >= 0) values.emplace_back("culprit", std::to_string(status.culprit));
+  if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
+  diagnostics_.report(now, health, status.reason, values);
+}
+
+}  // namespace spf_empc_ros

@@ -1,0 +1,58 @@
+#include "spf_empc_ros/robot_config.hpp"
+
+#include <ros/init.h>
+#include <ros/ros.h>
+
+#include <stdexcept>
+
+#include "spf_empc_ros/conversions.hpp"
+
+namespace spf_empc_ros {
+
+RobotConfig read_config(const ros::NodeHandle& own) {
+  RobotConfig config;
+  own.param("robot_id", config.robot_id, config.robot_id);
+  own.param("frame", config.frame, config.frame);
+  config.frame = plain_frame(config.frame);
+  const std::string path = own.param<std::string>("config", "");
+  const std::string map = own.param<std::string>("map", "wait");
+  std::string problems;
+  if (config.robot_id < 0)
+    problems += "\nrobot_id = " + std::to_string(config.robot_id) + " must be at least 0";
+  if (config.frame.empty()) problems += "\nframe must not be empty";
+  if (map != "wait" && map != "none") problems += "\nmap = " + map + " must be one of wait, none";
+  config.waits_for_map = map == "wait";
+  try {
+    config.file = spf::read_robot_file(path);
+  } catch (const spf::InputError& error) {
+    problems += std::string{"\n"} + error.what();
+  }
+  if (!problems.empty()) throw std::invalid_argument{problems.substr(1)};
+  config.agent = spf::agent_parameters(config.file);
+  return config;
+}
+
+ros::Time first_time() {
+  ros::Time now = ros::Time::now();
+  while (ros::ok() && now.isZero()) {
+    ROS_INFO_THROTTLE(5.0, "waiting for /clock");
+    ros::WallDuration{0.01}.sleep();
+    ros::spinOnce();
+    now = ros::Time::now();
+  }
+  return now;
+}
+
+int run_node(int argc, char** argv, const char* name, void (*body)(const RobotConfig& config)) {
+  ros::init(argc, argv, name);
+  const ros::NodeHandle own{"~"};
+  try {
+    body(read_config(own));
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace spf_empc_ros

@@ -1,0 +1,155 @@
+#include "spf_empc_ros/tracker_node.hpp"
+
+#include <geometry_msgs/Twist.h>
+#include <ros/console.h>
+#include <spf_empc_msgs/TrackerStatus.h>
+#include <spf_empc_msgs/WheelSpeeds.h>
+
+#include "spf_empc_ros/conversions.hpp"
+
+namespace spf_empc_ros {
+namespace {
+
+const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
+
+geometry_msgs::Pose2D pose2d(double x, double y, double theta) {
+  geometry_msgs::Pose2D pose;
+  pose.x = x;
+  pose.y = y;
+  pose.theta = theta;
+  return pose;
+}
+
+}  // namespace
+
+TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const ros::Time& start)
+    : node_{std::move(node)},
+      config_{config},
+      clock_{start},
+      host_{config.robot_id, config.agent, config.file.host},
+      diagnostics_{node_, config.robot_id, "tracker"},
+      switch_{node_,
+              [this](bool paused, bool stop) {
+                host_.set_paused(paused);
+                host_.set_emergency_stop(stop);
+              }},
+      base_frame_{"robot" + std::to_string(config.robot_id) + "/base_link"} {
+  cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  wheel_speeds_ = node_.advertise<spf_empc_msgs::WheelSpeeds>("wheel_speeds", 1);
+  estimate_ = node_.advertise<nav_msgs::Odometry>("estimate", 5);
+  status_ = node_.advertise<spf_empc_msgs::TrackerStatus>("tracker_status", 20);
+  subscribers_ = {node_.subscribe("odom", 20, &TrackerNode::on_pose, this, kNoDelay),
+                  node_.subscribe("trajectory", 5, &TrackerNode::on_plan, this, kNoDelay)};
+  timer_ = node_.createTimer(ros::Duration{config_.agent.tracker.control_period},
+                             [this](const ros::TimerEvent&) { step(); });
+}
+
+TrackerNode::~TrackerNode() {
+  timer_.stop();
+  cmd_vel_.publish(geometry_msgs::Twist{});
+}
+
+void TrackerNode::refuse(const char* what, const std::string& why) {
+  last_refusal_ = std::string{what} + ": " + why;
+  ROS_WARN_THROTTLE(1.0, "%s", last_refusal_.c_str());
+}
+
+void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
+  const Converted<spf::Pose2> pose = from_message(odometry->pose.pose);
+  const Converted<spf::Pose2> frame =
+      frames_.place(odometry->header.frame_id, config_.frame, odometry->header.stamp);
+  if (!pose || !frame) return refuse("odom", pose ? frame.refusal : pose.refusal);
+  const spf::host::PoseVerdict verdict =
+      host_.add_pose({clock_.seconds(odometry->header.stamp), compose(*frame, *pose)}, now());
+  if (!believed(verdict)) refuse("odom", to_string(verdict));
+}
+
+void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
+  const Converted<ToldTrajectory> told = from_message(*trajectory, clock_, config_.frame);
+  if (!told) return refuse("trajectory", told.refusal);
+  const spf::host::PlanVerdict verdict = host_.add_plan(told->message, now());
+  if (verdict != spf::host::PlanVerdict::accepted) return refuse("trajectory", to_string(verdict));
+  observed_ = told->observed;
+}
+
+void TrackerNode::step() {
+  const ros::WallTime begun = ros::WallTime::now();
+  const spf::host::TrackerCommand& command = host_.step(now());
+  const double control_us = 1e6 * (ros::WallTime::now() - begun).toSec();
+  const ros::Time time = ros::Time::now();
+  publish_command(time, command);
+  publish_estimate(time, command);
+  publish_status(time, command, control_us);
+  report(time, command);
+}
+
+void TrackerNode::publish_command(const ros::Time& now, const spf::host::TrackerCommand& command) {
+  geometry_msgs::Twist twist;
+  twist.linear.x = command.twist_body.x();
+  twist.linear.y = command.twist_body.y();
+  twist.angular.z = command.twist_body.z();
+  cmd_vel_.publish(twist);
+  spf_empc_msgs::WheelSpeeds wheels;
+  wheels.header.stamp = now;
+  wheels.header.frame_id = base_frame_;
+  wheels.speeds.assign(command.wheel_speeds.begin(), command.wheel_speeds.end());
+  wheels.limit = host_.max_wheel_speed();
+  wheel_speeds_.publish(wheels);
+}
+
+void TrackerNode::publish_estimate(const ros::Time& now, const spf::host::TrackerCommand& command) {
+  if (!command.estimate.valid || estimate_.getNumSubscribers() == 0) return;
+  nav_msgs::Odometry message;
+  message.header.stamp = now;
+  message.header.frame_id = config_.frame;
+  message.child_frame_id = base_frame_;
+  message.pose.pose = to_message(command.estimate.pose_world);
+  message.pose.covariance[0] = message.pose.covariance[7] = command.estimate.position_variance;
+  message.pose.covariance[35] = command.estimate.heading_variance;
+  message.twist.twist.linear.x = command.twist_body.x();
+  message.twist.twist.linear.y = command.twist_body.y();
+  message.twist.twist.angular.z = command.twist_body.z();
+  estimate_.publish(message);
+}
+
+void TrackerNode::publish_status(const ros::Time& now, const spf::host::TrackerCommand& command,
+                                 double control_us) {
+  spf_empc_msgs::TrackerStatus message;
+  message.header.stamp = now;
+  message.header.frame_id = config_.frame;
+  message.robot_id = static_cast<std::uint32_t>(config_.robot_id);
+  message.mode = to_string(command.mode);
+  const spf::Pose2& here = command.estimate.pose_world;
+  const Eigen::Vector3d& push = command.estimate.disturbance_world;
+  message.estimate = pose2d(here.position_world.x(), here.position_world.y(), here.heading);
+  message.disturbance = pose2d(push.x(), push.y(), push.z());
+  message.position_sigma = std::sqrt(command.estimate.position_variance);
+  message.reference =
+      pose2d(command.reference_pose.x(), command.reference_pose.y(), command.reference_pose.z());
+  message.control_us = control_us;
+  const bool follows = command.mode == spf::host::TrackerMode::tracking && observed_;
+  message.latency_ms = follows ? 1e3 * (clock_.seconds(now) - *observed_) : -1.0;
+  message.plans_refused = host_.plans_refused();
+  message.poses_refused = host_.poses_refused();
+  status_.publish(message);
+}
+
+void TrackerNode::report(const ros::Time& now, const spf::host::TrackerCommand& command) {
+  const std::string mode = to_string(command.mode);
+  if (!diagnostics_.due(now, mode)) return;
+  using spf::host::TrackerMode;
+  Health health = Health::missing;
+  if (command.mode == TrackerMode::tracking) health = Health::ok;
+  if (command.mode == TrackerMode::paused || command.mode == TrackerMode::far_from_plan)
+    health = Health::standing;
+  const double seconds = clock_.seconds(now);
+  Diagnostics::Values values{{"pose age", age_text(host_.pose_age(seconds))},
+                             {"plan age", age_text(host_.plan_age(seconds))},
+                             {"poses refused", std::to_string(host_.poses_refused())},
+                             {"plans refused", std::to_string(host_.plans_refused())},
+                             {"clock jumps", std::to_string(host_.clock_jumps())}};
+  if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
+  diagnostics_.report(now, health, mode, values);
+}
+
+}  // namespace spf_empc_ros

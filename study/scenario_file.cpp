@@ -1,0 +1,236 @@
+#include "study/scenario_file.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "config/parameter_text.hpp"
+#include "config/yaml_reader.hpp"
+#include "config/yaml_writer.hpp"
+
+namespace spf {
+namespace {
+
+/// The choice at a key of the document; `fallback` when it is absent or no such name (the reader reports
+/// that).
+template <class E>
+E peek(const YamlNode& root, const char* key, E fallback) {
+  InputProblems ignored;
+  if (const YamlNode* node = root.find(key)) read_choice({*node, key, ignored}, fallback);
+  return fallback;
+}
+
+SceneFamily peek_family(const YamlNode& root) {
+  const YamlNode* robots = root.find("robots");
+  const bool lists_robots = robots != nullptr && robots->kind == YamlKind::list;
+  return peek(root, "family",
+              lists_robots ? SceneFamily::explicit_scene : static_cast<SceneFamily>(sim::Family::t2));
+}
+
+double heading_of(const RobotEntry& entry) {
+  if (entry.heading) return *entry.heading;
+  const Eigen::Vector2d way = entry.goal - entry.start;
+  if (!way.allFinite()) return 0.0;
+  return std::atan2(way.y(), way.x());
+}
+
+sim::Scenario explicit_scenario(const Study& study) {
+  sim::Scenario scenario;
+  scenario.family = enum_name(SceneFamily::explicit_scene);
+  scenario.seed = study.seed;
+  scenario.robot = study.robot;
+  scenario.simulation = study.simulation;
+  if (study.scene.border) scenario.border = sim::Box{study.scene.border->low, study.scene.border->high};
+  for (const BoxEntry& box : study.scene.boxes) scenario.boxes.push_back({box.low, box.high});
+  for (const DiscEntry& disc : study.scene.discs) scenario.pillars.push_back({disc.center, disc.radius});
+  for (const WallEntry& wall : study.scene.walls) scenario.walls.push_back({wall.from, wall.to});
+  for (const WallEntry& seam : study.scene.seams) scenario.seams.push_back({seam.from, seam.to});
+  for (const MovingEntry& disc : study.scene.moving)
+    scenario.discs.push_back({disc.position, disc.velocity, disc.radius});
+  for (const RobotEntry& robot : study.scene.robots)
+    scenario.robots.push_back({{robot.start, heading_of(robot)}, robot.goal, robot.goal_heading});
+  return scenario;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+/// The simulator's names of lists, in the words of the file.
+std::string in_words_of_file(std::string text) {
+  replace_all(text, "discs[", "moving[");
+  replace_all(text, "pillars[", "discs[");
+  return text;
+}
+
+std::string entry(const char* list, std::size_t index, const char* member) {
+  return std::string{list} + "[" + std::to_string(index) + "]" + member;
+}
+
+/// Rules of a file beside those of the simulator: goals apart, since robots stay at theirs; discs inside the
+/// border.
+std::vector<sim::ScenarioProblem> more_problems_of(const sim::Scenario& scenario) {
+  std::vector<sim::ScenarioProblem> found;
+  const double sum = 2.0 * scenario.robot.radius;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double gap = (scenario.robots[i].goal_world - scenario.robots[j].goal_world).norm();
+      if (gap < sum)
+        found.push_back(
+            {entry("robots", i, ".goal"), "is " + to_text(gap) + " m from robots[" + std::to_string(j) +
+                                              "].goal, less than two radii, " + to_text(sum) + " m"});
+    }
+  for (std::size_t i = 0; i < scenario.discs.size() && scenario.border; ++i) {
+    const ObstacleState& disc = scenario.discs[i];
+    const double depth = std::min((disc.position_world - scenario.border->low).minCoeff(),
+                                  (scenario.border->high - disc.position_world).minCoeff());
+    if (depth < disc.radius)
+      found.push_back({entry("discs", i, ".position"),
+                       "must lie inside the border by its radius, " + to_text(disc.radius) + " m"});
+  }
+  return found;
+}
+
+/// What was found in the file before its scene was looked at. Refused values have left a default behind,
+/// about which nothing more is to be said.
+class Refused {
+ public:
+  explicit Refused(const InputProblems& problems) : problems_{problems} {}
+
+  [[nodiscard]] bool at(const SourcePlace& place) const {
+    for (const InputProblem& problem : problems_.kept())
+      if (problem.place.source == place.source && problem.place.line == place.line &&
+          problem.place.column == place.column && place.line > 0)
+        return true;
+    return false;
+  }
+  /// Does the sentence speak of an entry such as discs[3] that was refused, in part or whole?
+  [[nodiscard]] bool mentioned_in(const std::string& sentence) const {
+    for (const InputProblem& problem : problems_.kept()) {
+      const std::size_t end = problem.sentence.find(']');
+      if (end != std::string::npos && end < problem.sentence.find(' ') &&
+          sentence.find(problem.sentence.substr(0, end + 1)) != std::string::npos)
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  InputProblems problems_;
+};
+
+/// "robots[0].start = [1, 2] must lie ..."; the simulator's sentences may begin with the value as (1, 2).
+std::string scene_sentence(const YamlNode& node, const std::string& where, std::string what) {
+  const bool has_value = node.kind == YamlKind::scalar || node.kind == YamlKind::list;
+  const std::size_t end = what.find(") ");
+  if (has_value && what.rfind("(", 0) == 0 && end != std::string::npos) what.erase(0, end + 2);
+  return where + (has_value ? " = " + shown(node) : "") + " " + what;
+}
+
+/// Checks a scene that stands in the file.
+void check_explicit(const YamlNode& root, const Study& study, InputProblems& problems) {
+  const Refused refused{problems};
+  const sim::Scenario scenario = explicit_scenario(study);
+  std::vector<sim::ScenarioProblem> found = sim::problems_of(scenario);
+  for (sim::ScenarioProblem& problem : more_problems_of(scenario)) found.push_back(std::move(problem));
+  for (const sim::ScenarioProblem& problem : found) {
+    const std::string where = in_words_of_file(problem.where);
+    const std::string what = in_words_of_file(problem.what);
+    const YamlNode& node = nearest_node(root, where);
+    const bool unset = what.find("nan") != std::string::npos;
+    if (unset || refused.at(node.place) || refused.mentioned_in(what)) continue;
+    problems.add(node.place, scene_sentence(node, where, what));
+  }
+}
+
+/// Checks that a family draws a first trial that can run. Reported as one problem, where the file sizes the
+/// family.
+void check_drawn(const YamlNode& root, const Study& study, InputProblems& problems) {
+  const char* key = root.find("robots") != nullptr ? "robots" : "family";
+  const YamlNode* node = root.find(key);
+  const auto refuse = [&](const std::string& why) {
+    problems.add(
+        node == nullptr ? root.place : node->place,
+        std::string{key} + (node == nullptr ? "" : " = " + shown(*node)) + " cannot be drawn: " + why);
+  };
+  try {
+    const std::vector<sim::ScenarioProblem> found = sim::problems_of(make_trial(study, 0));
+    if (found.empty()) return;
+    const std::string others =
+        found.size() == 1 ? "" : " (and " + std::to_string(found.size() - 1) + " more)";
+    refuse(found.front().where + " " + found.front().what + others);
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
+}
+
+Study read_document(YamlNode root, const std::vector<Setting>& settings, InputProblems problems) {
+  if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
+  for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
+  Study study = default_study(peek_family(root), peek(root, "method", Study{}.method));
+  read_parameters(root, study, problems);
+  if (root.kind == YamlKind::map) {
+    if (study.family == SceneFamily::explicit_scene)
+      check_explicit(root, study, problems);
+    else if (problems.empty())
+      check_drawn(root, study, problems);
+  }
+  problems.throw_if_any();
+  return study;
+}
+
+}  // namespace
+
+Study default_study(SceneFamily family, Method method) {
+  Study study;
+  study.family = family;
+  study.method = method;
+  study.agent = with_method(AgentParameters{}, method);
+  if (family == SceneFamily::explicit_scene) return study;
+  const sim::FamilySetup setup = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family)));
+  study.layout = setup.layout;
+  study.robot = setup.robot;
+  study.simulation = setup.simulation;
+  return study;
+}
+
+Study read_study(const std::string& path, const std::vector<Setting>& settings) {
+  InputProblems problems;
+  YamlNode root = read_yaml_file(path, problems);
+  return read_document(std::move(root), settings, std::move(problems));
+}
+
+Study study_from_text(const std::string& text, const std::string& name,
+                      const std::vector<Setting>& settings) {
+  InputProblems problems;
+  YamlNode root = parse_yaml(text, name, problems);
+  return read_document(std::move(root), settings, std::move(problems));
+}
+
+std::string to_yaml_text(const Study& study, bool explains) {
+  return to_yaml(study, explains);
+}
+
+sim::Scenario make_trial(const Study& study, int trial) {
+  if (study.family != SceneFamily::explicit_scene) {
+    const sim::Family family = static_cast<sim::Family>(static_cast<int>(study.family));
+    return sim::make_scenario({family, study.layout, study.robot, study.simulation}, study.seed, trial);
+  }
+  sim::Scenario scenario = explicit_scenario(study);
+  scenario.trial = trial;
+  return scenario;
+}
+
+AgentParameters agent_parameters(const Study& study) {
+  AgentParameters parameters = study.agent;
+  parameters.robot = study.robot;
+  parameters.ideal_tracking = study.simulation.trial.tracking == sim::TrackingMode::ideal;
+  const sim::PoseNoiseParameters& noise = study.simulation.pose_noise;
+  ObserverParameters& observer = parameters.tracker.observer;
+  if (observer.pose_sigma == 0.0) observer.pose_sigma = noise.position_sigma;
+  if (observer.heading_sigma == 0.0) observer.heading_sigma = std::min(noise.heading_sigma, 3.0);
+  return parameters;
+}
+
+}  // namespace spf

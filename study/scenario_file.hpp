@@ -1,0 +1,206 @@
+// Scenario files: a family of the evaluation protocol or a place drawn by hand, with everything that differs
+// from the defaults. Reading one gives a Study, from which every trial's ground truth and every robot's
+// parameters follow. Frame: world, SI.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "config/hiding_visitor.hpp"
+#include "config/input_problem.hpp"
+#include "sim/families.hpp"
+#include "sim/scenario.hpp"
+#include "spf/team/agent_parameters.hpp"
+
+namespace spf {
+
+/// Where a scene comes from: one of sim::Family, or written out in the file.
+enum class SceneFamily : int { explicit_scene = -1 };
+template <std::size_t... i>
+[[nodiscard]] constexpr auto scene_family_names(std::index_sequence<i...>) {
+  constexpr auto& drawn = EnumNames<sim::Family>::values;
+  return std::array<std::pair<SceneFamily, const char*>, sizeof...(i) + 1>{
+      {{static_cast<SceneFamily>(drawn[i].first), drawn[i].second}...,
+       {SceneFamily::explicit_scene, "explicit"}}};
+}
+template <>
+struct EnumNames<SceneFamily> {
+  static constexpr auto values =
+      scene_family_names(std::make_index_sequence<EnumNames<sim::Family>::values.size()>{});
+};
+
+/// Coordinates that nobody may use before the file has set them.
+inline const Eigen::Vector2d kUnsetPoint =
+    Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+inline constexpr Range kCoordinate{-1e5, 1e5};
+
+struct RobotEntry {
+  Eigen::Vector2d start = kUnsetPoint;
+  std::optional<double> heading;
+  Eigen::Vector2d goal = kUnsetPoint;
+  std::optional<double> goal_heading;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit.required("start");
+    visit.required("goal");
+    visit("start", self.start, "m", kCoordinate, "where the robot's centre is at the beginning");
+    visit("heading", self.heading, "rad", Range{-6.3, 6.3},
+          "of its x axis at the beginning; none: towards the goal");
+    visit("goal", self.goal, "m", kCoordinate, "where it is to go");
+    visit("goal_heading", self.goal_heading, "rad", Range{-6.3, 6.3}, "of its x axis at the goal; none: any");
+  }
+};
+
+struct BoxEntry {
+  Eigen::Vector2d low = kUnsetPoint;
+  Eigen::Vector2d high = kUnsetPoint;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit.required("low");
+    visit.required("high");
+    visit("low", self.low, "m", kCoordinate, "lower left corner");
+    visit("high", self.high, "m", kCoordinate, "upper right corner");
+  }
+};
+
+struct DiscEntry {
+  Eigen::Vector2d center = kUnsetPoint;
+  double radius = 0.5;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit.required("center");
+    visit("center", self.center, "m", kCoordinate, "middle of the disc");
+    visit("radius", self.radius, "m", Range{0.001, 1000.0}, "radius of the disc");
+  }
+};
+
+struct WallEntry {
+  Eigen::Vector2d from = kUnsetPoint;
+  Eigen::Vector2d to = kUnsetPoint;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit.required("from");
+    visit.required("to");
+    visit("from", self.from, "m", kCoordinate, "one end");
+    visit("to", self.to, "m", kCoordinate, "the other end");
+  }
+};
+
+struct MovingEntry {
+  Eigen::Vector2d position = kUnsetPoint;
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  double radius = 0.4;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit.required("position");
+    visit("position", self.position, "m", kCoordinate, "where its centre is at the beginning");
+    visit("velocity", self.velocity, "m/s", Range{-100.0, 100.0}, "its velocity at the beginning");
+    visit("radius", self.radius, "m", Range{0.001, 1000.0}, "its radius");
+  }
+};
+
+/// The scene of a file with `family: explicit`.
+struct ExplicitScene {
+  std::vector<RobotEntry> robots;
+  std::optional<BoxEntry> border;
+  std::vector<BoxEntry> boxes;
+  std::vector<DiscEntry> discs;
+  std::vector<WallEntry> walls;
+  std::vector<WallEntry> seams;
+  std::vector<MovingEntry> moving;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit.required("robots");
+    visit.list("robots", self.robots, "the robots; robot 0 has the highest priority");
+    visit.optional_group("border", self.border, "the box that nobody may leave");
+    visit.list("boxes", self.boxes, "axis-parallel boxes that stand still");
+    visit.list("discs", self.discs, "discs that stand still");
+    visit.list("walls", self.walls, "thin walls");
+    visit.list("seams", self.seams, "lines at which an observed pose jumps (pose_noise.seam_sigma)");
+    visit.list("moving", self.moving, "moving discs; they bounce off everything that stands still");
+  }
+};
+
+/// A scenario file with all its defaults filled in.
+struct Study {
+  SceneFamily family = SceneFamily::explicit_scene;
+  std::uint64_t seed = sim::kDefaultSeed;
+  Method method = Method::space_time;
+  sim::LayoutParameters layout;  ///< of a drawn family
+  ExplicitScene scene;           ///< of an explicit one
+  RobotParameters robot;
+  sim::SimulationParameters simulation;
+  AgentParameters agent;  ///< without its robot: that is `robot`
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit);
+};
+
+/// The defaults of a family and a method.
+[[nodiscard]] Study default_study(SceneFamily family, Method method);
+
+/// One value written over the file's.
+struct Setting {
+  std::string assignment;        ///< key.path=value
+  std::string source = "--set";  ///< where it stood, for messages
+};
+
+/// Reads a file with settings written over it. Throws InputError with every problem: of
+/// form, of single values, and of the scene (robots inside obstacles, ...).
+[[nodiscard]] Study read_study(const std::string& path, const std::vector<Setting>& settings = {});
+/// The same from text; `name` stands for the file in messages.
+[[nodiscard]] Study study_from_text(const std::string& text, const std::string& name,
+                                    const std::vector<Setting>& settings = {});
+
+/// The file that gives this study, every key written out.
+/// With `explains`, each with a comment.
+[[nodiscard]] std::string to_yaml_text(const Study& study, bool explains = false);
+
+/// Ground truth of trial k. Throws std::runtime_error when a family finds no scene for its layout.
+[[nodiscard]] sim::Scenario make_trial(const Study& study, int trial);
+
+/// Parameters of every robot: `agent` with the study's robot. An observer whose pose_sigma or heading_sigma
+/// is 0 (the default, "as exact as the scenario says") is told the scenario's pose_noise; any other value
+/// counts as written, so that an observer can be misinformed on purpose.
+[[nodiscard]] AgentParameters agent_parameters(const Study& study);
+
+// ---- implementation of the field list
+// ------------------------------------------------------------------------------
+
+template <class Self, class Visitor>
+void Study::visit_fields(Self& self, Visitor&& visit) {
+  visit.required("family");
+  visit("family", self.family,
+        "generator of the evaluation protocol, or explicit: the scene stands in the file");
+  visit("seed", self.seed, "1", Range{0.0, 18446744073709551615.0}, "seed of everything random");
+  visit("method", self.method, "how robots plan and track: a set of agent parameters");
+  if (self.family == SceneFamily::explicit_scene) {
+    ExplicitScene::visit_fields(self.scene, visit);
+  } else {
+    visit("robots", self.layout.robots, "1", Range{1, 10000}, "number of robots");
+    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
+    visit.group("layout", layout);
+  }
+  visit.group("robot", self.robot);
+  sim::SimulationParameters::visit_fields(self.simulation, visit);
+  PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{
+      self.agent, {"robot", "generator", "ideal_tracking"}};
+  visit.group("agent", agent);
+}
+
+}  // namespace spf

@@ -1,0 +1,259 @@
+#include "study/scenario_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "config/yaml_reader.hpp"
+
+namespace spf {
+namespace {
+
+using testing::HasSubstr;
+
+std::string report(const std::string& text, const std::vector<Setting>& settings = {}) {
+  try {
+    static_cast<void>(study_from_text(text, "file.yaml", settings));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream{path}.rdbuf();
+  return text.str();
+}
+
+const std::filesystem::path kScenarios = std::filesystem::path{SPF_SOURCE_DIR} / "scenarios";
+
+TEST(ScenarioFile, GivesTheFamilyOfTheProtocol) {
+  const Study study = study_from_text("family: t2_hard\nnoise: {level: 1, model: walk}\n", "file.yaml");
+  EXPECT_EQ(study.family, static_cast<SceneFamily>(sim::Family::t2_hard));
+  EXPECT_EQ(study.method, Method::space_time);
+  EXPECT_EQ(study.simulation.noise.level, 1.0);
+  EXPECT_EQ(study.simulation.noise.speed_limit, 1.2);  // of the family, not of the struct
+  const sim::Scenario trial = make_trial(study, 3);
+  EXPECT_EQ(trial.robots.size(), 12u);
+  EXPECT_EQ(trial.trial, 3);
+  EXPECT_EQ(trial.seed, sim::kDefaultSeed);
+  EXPECT_EQ(trial.simulation.noise.model, sim::NoiseModel::walk);
+}
+
+TEST(ScenarioFile, DrawsTheSameTrialsAsTheGenerator) {
+  const Study study = study_from_text("family: t2\n", "file.yaml");
+  const sim::Scenario expected = sim::make_scenario(sim::family_setup(sim::Family::t2), sim::kDefaultSeed, 7);
+  const sim::Scenario trial = make_trial(study, 7);
+  ASSERT_EQ(trial.discs.size(), expected.discs.size());
+  for (std::size_t i = 0; i < trial.discs.size(); ++i)
+    EXPECT_EQ(trial.discs[i].position_world, expected.discs[i].position_world);
+}
+
+TEST(ScenarioFile, SizesAFamily) {
+  const Study study = study_from_text("family: swap\n", "file.yaml", {{"robots=20"}});
+  EXPECT_EQ(make_trial(study, 0).robots.size(), 20u);
+}
+
+TEST(ScenarioFile, MethodSetsAgentParametersAndTheFileOverridesThem) {
+  const AgentParameters defaults;
+  const Study study = study_from_text(
+      "family: t2\nmethod: spf_empc\nrobot: {radius: 0.25}\nagent: {team: {retry_first: 0.5}}\n",
+      "file.yaml");
+  const AgentParameters expected = with_method(defaults, Method::spf_empc);
+  const AgentParameters parameters = agent_parameters(study);
+  EXPECT_EQ(parameters.generator, expected.generator);
+  EXPECT_EQ(parameters.team.retry_first, 0.5);
+  EXPECT_EQ(parameters.robot.radius, 0.25);  // one robot for planner, controller and plant
+  EXPECT_EQ(make_trial(study, 0).robot.radius, 0.25);
+  EXPECT_FALSE(parameters.ideal_tracking);
+  EXPECT_TRUE(
+      agent_parameters(study_from_text("family: t2\ntrial: {tracking: ideal}", "file.yaml")).ideal_tracking);
+}
+
+TEST(ScenarioFile, DescribesASceneByHand) {
+  const Study study = study_from_text(
+      "family: explicit\n"
+      "border: {low: [-5, -5], high: [5, 5]}\n"
+      "robots:\n"
+      "  - {start: [-4, 0], goal: [4, 0]}\n"
+      "  - {start: [0, -4], goal: [0, 4], heading: 1.5, goal_heading: 0.5}\n"
+      "boxes: [{low: [1, 1], high: [2, 2]}]\n"
+      "discs: [{center: [-2, 2], radius: 0.4}]\n"
+      "walls: [{from: [-3, -3], to: [-2, -3]}]\n"
+      "moving: [{position: [3, -3], velocity: [0, 0.5], radius: 0.3}]\n",
+      "file.yaml");
+  const sim::Scenario scenario = make_trial(study, 0);
+  ASSERT_EQ(scenario.robots.size(), 2u);
+  EXPECT_EQ(scenario.robots[0].start.heading, 0.0);  // towards its goal
+  EXPECT_EQ(scenario.robots[1].start.heading, 1.5);
+  EXPECT_FALSE(scenario.robots[0].goal_heading.has_value());
+  EXPECT_EQ(scenario.robots[1].goal_heading, 0.5);
+  ASSERT_TRUE(scenario.border.has_value());
+  EXPECT_EQ(scenario.border->high.x(), 5.0);
+  ASSERT_EQ(scenario.boxes.size(), 1u);
+  ASSERT_EQ(scenario.pillars.size(), 1u);
+  EXPECT_EQ(scenario.pillars[0].radius, 0.4);
+  ASSERT_EQ(scenario.walls.size(), 1u);
+  ASSERT_EQ(scenario.discs.size(), 1u);
+  EXPECT_EQ(scenario.discs[0].velocity_world, (Eigen::Vector2d{0.0, 0.5}));
+}
+
+struct BadScenario {
+  const char* text;
+  const char* expected;
+};
+
+class ScenarioFileBadInput : public testing::TestWithParam<BadScenario> {};
+
+TEST_P(ScenarioFileBadInput, IsRefusedWithPlaceKeyValueAndLimit) {
+  EXPECT_EQ(report(GetParam().text), GetParam().expected);
+}
+
+#define ROBOT "robots: [{start: [0, 0], goal: [5, 0]}]\n"
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, ScenarioFileBadInput,
+    testing::Values(
+        BadScenario{"noise: {level: 1}", "file.yaml:1:1: family is missing"},
+        BadScenario{"family: explicit", "file.yaml:1:1: robots is missing"},
+        BadScenario{"family: t2\nrobots: [{start: [0, 0], goal: [1, 1]}]",
+                    "file.yaml:2:9: robots = [{...}] must be a whole number"},
+        BadScenario{"family: t2\nboxes: []", "file.yaml:2:1: boxes = [] is not a known key"},
+        BadScenario{"family: t2\nagent: {robot: {radius: 1}}",
+                    "file.yaml:2:9: agent.robot = {...} is not a known key; did you mean robot?"},
+        BadScenario{
+            "family: explicit\n" ROBOT "discs: [{center: [0.5, 0], radius: 0.3}]",
+            "file.yaml:2:18: robots[0].start = [0, 0] is 0.2 m from discs[0], less than the radius 0.3 m"},
+        BadScenario{
+            "family: explicit\n" ROBOT "boxes: [{low: [4, -1], high: [6, 1]}]",
+            "file.yaml:2:32: robots[0].goal = [5, 0] is 0 m from boxes[0], less than the radius 0.3 m"},
+        BadScenario{"family: explicit\n" ROBOT "moving: [{position: [0, 0.5], radius: 0.4}]",
+                    "file.yaml:2:18: robots[0].start = [0, 0] is inside moving[0]: centres 0.5 m apart"},
+        BadScenario{"family: explicit\n" ROBOT "border: {low: [-5, -5], high: [5, 5]}",
+                    "file.yaml:2:32: robots[0].goal = [5, 0] must lie inside the border by the radius 0.3 m"},
+        BadScenario{"family: explicit\n" ROBOT "boxes: [{low: [2, 2], high: [1, 3]}]",
+                    "file.yaml:3:9: boxes[0] low corner (2, 2) must lie below the high corner (1, 3)"},
+        BadScenario{"family: explicit\nrobots:\n  - {start: [0, 0], goal: [5, 0]}\n  - {start: [0.5, 0], "
+                    "goal: [5, 3]}",
+                    "file.yaml:4:13: robots[1].start = [0.5, 0] is inside robots[0]: centres 0.5 m apart"},
+        BadScenario{
+            "family: explicit\nrobots:\n  - {start: [0, 0], goal: [5, 0]}\n  - {start: [0, 3], goal: [5, 0]}",
+            "file.yaml:4:27: robots[1].goal = [5, 0] is 0 m from robots[0].goal, less than two radii, 0.6 m"},
+        BadScenario{
+            "family: explicit\n" ROBOT
+            "border: {low: [-9, -9], high: [9, 9]}\nmoving: [{position: [8.9, 0]}]",
+            "file.yaml:4:21: moving[0].position = [8.9, 0] must lie inside the border by its radius, 0.4 m"},
+        // A refused value is reported once; the default that it leaves behind says nothing more.
+        BadScenario{"family: explicit\n" ROBOT "discs: [{center: [0.5, 0], radius: -1}]",
+                    "file.yaml:3:36: discs[0].radius = -1 must lie in [0.001, 1000] m"},
+        BadScenario{"family: explicit\nrobots: [{start: [0, .nan], goal: [5, 0]}]",
+                    "file.yaml:2:22: robots[0].start[1] = .nan must be a number in m, not NaN"}));
+#undef ROBOT
+
+TEST(ScenarioFile, ListsTheNamesThatAreAllowed) {
+  EXPECT_THAT(report("family: t3"),
+              testing::AllOf(testing::StartsWith("file.yaml:1:9: family = t3 must be one of "),
+                             HasSubstr("f7"), HasSubstr("explicit; did you mean t2?")));
+  EXPECT_THAT(report("family: t2\nmethod: spf_emp"),
+              testing::AllOf(testing::StartsWith("file.yaml:2:9: method = spf_emp must be one of es2, "),
+                             HasSubstr("space_time"), HasSubstr("did you mean spf_empc?")));
+}
+
+TEST(ScenarioFile, ReportsFormAndSceneAtOnce) {
+  const std::string text = report(
+      "family: explicit\n"
+      "robots:\n"
+      "  - {start: [0, 0], goal: [5, 0]}\n"
+      "  - {start: [0.1, 0], gaol: [5, 3]}\n"
+      "sensing: {range: -1}\n",
+      {{"noise.level=-2", "--level"}});
+  EXPECT_THAT(text, HasSubstr("--level: noise.level = -2 must lie in [0, 100]"));
+  EXPECT_THAT(text, HasSubstr("file.yaml:4:5: robots[1].goal is missing"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("file.yaml:4:23: robots[1].gaol = [5, 3] is not a known key; did you mean robots[1].goal?"));
+  EXPECT_THAT(text, HasSubstr("file.yaml:5:18: sensing.range = -1 must lie in"));
+}
+
+TEST(ScenarioFile, SaysWhenAFamilyHasNoRoom) {
+  const std::string robots = report("family: t2\nrobots: 2000");
+  EXPECT_THAT(robots, testing::StartsWith("file.yaml:2:9: robots = 2000 cannot be drawn: robots["));
+  EXPECT_THAT(robots, testing::Not(HasSubstr("\n")));
+  EXPECT_THAT(report("family: t2\nlayout: {squares: 200}"),
+              testing::StartsWith("file.yaml:1:9: family = t2 cannot be drawn: no scene"));
+}
+
+TEST(ScenarioFile, ResolvedFormReadsBackToTheSameStudy) {
+  for (const std::string text :
+       {"family: p8\nmethod: spf_empc\n",
+        "family: t2\nnoise: {level: 0.25, model: walk}\nseed: 18446744073709551615\n",
+        "family: explicit\nrobots: [{start: [0, 0], goal: [5, 0.1], heading: 0.3}, {start: [0, 3], goal: [5, "
+        "3]}]\n"
+        "border: {low: [-9, -9], high: [9, 9]}\nmoving: [{position: [3, -3], velocity: [0.1, 0.2]}]\n"}) {
+    for (const bool explains : {false, true}) {
+      const std::string resolved = to_yaml_text(study_from_text(text, "file.yaml"), explains);
+      EXPECT_EQ(to_yaml_text(study_from_text(resolved, "resolved.yaml"), explains), resolved);
+    }
+  }
+}
+
+TEST(ScenarioFile, LoadsHundredsOfStaticDiscs) {
+  std::string text = "family: explicit\nrobots: [{start: [-5, 0], goal: [50, 0]}]\ndiscs:\n";
+  for (int i = 0; i < 30; ++i)
+    for (int j = 0; j < 30; ++j)
+      text += "  - {center: [" + std::to_string(i) + ", " + std::to_string(j + 1) + "], radius: 0.075}\n";
+  EXPECT_EQ(make_trial(study_from_text(text, "file.yaml"), 0).pillars.size(), 900u);
+}
+
+TEST(ScenarioFiles, AreAllGood) {
+  int seen = 0;
+  for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator{kScenarios}) {
+    if (entry.path().extension() != ".yaml") continue;
+    SCOPED_TRACE(entry.path());
+    const Study study = read_study(entry.path().string());
+    EXPECT_FALSE(make_trial(study, 0).robots.empty());
+    ++seen;
+  }
+  EXPECT_GE(seen, 7);
+}
+
+TEST(ScenarioFiles, FamiliesAreNamedAfterThemselves) {
+  for (const auto& [family, name] : EnumNames<sim::Family>::values) {
+    SCOPED_TRACE(name);
+    const Study study = read_study((kScenarios / (std::string{name} + ".yaml")).string());
+    EXPECT_EQ(study.family, static_cast<SceneFamily>(family));
+  }
+}
+
+// The hand-written scenario is the reference of the format: it has every key, and explains it.
+TEST(ScenarioFiles, CrossingExplainsEveryKey) {
+  const std::string text = text_of(kScenarios / "crossing.yaml");
+  InputProblems problems;
+  const YamlNode root = parse_yaml(text, "crossing.yaml", problems);
+  ASSERT_TRUE(problems.empty()) << problems.to_text();
+  Study study = default_study(SceneFamily::explicit_scene, Study{}.method);
+  for (std::string key : keys_of(study)) {
+    if (key == "border" || key.find("heading") != std::string::npos)
+      continue;  // absent has a meaning of its own
+    for (std::size_t at = key.find("[]"); at != std::string::npos; at = key.find("[]"))
+      key.replace(at, 2, "[0]");
+    const std::size_t last = key.find_last_of('.');
+    const YamlNode& parent = last == std::string::npos ? root : nearest_node(root, key.substr(0, last));
+    EXPECT_NE(parent.find(key.substr(last == std::string::npos ? 0 : last + 1)), nullptr)
+        << key << " is missing; build the target spf_reference_files";
+  }
+  std::istringstream lines{text};
+  int explained = 0;
+  for (std::string line; std::getline(lines, line);)
+    explained += line.find("  # ") != std::string::npos ? 1 : 0;
+  int values = 0;
+  for (const std::string& key : keys_of(study)) values += key.find("[]") == std::string::npos ? 1 : 0;
+  EXPECT_GE(explained, values - 20);  // groups and lists have their comment above or none
+}
+
+}  // namespace
+}  // namespace spf
