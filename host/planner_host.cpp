@@ -99,9 +99,20 @@ ObservationVerdict PlannerHost::add_observation(SensedWorld sensed, double now) 
   if (agent_) {
     // One at a time: an agent's input holds one observation.
     if (input_.observation) agent_->receive(now, std::exchange(input_, {}));
+    doubt_peers(observation);
     input_.observation = std::move(sensed.observation);
   }
   return ObservationVerdict::accepted;
+}
+
+/// Before the scan enters the map: whose discs are not to hide what it shows.
+void PlannerHost::doubt_peers(const Observation& observation) {
+  if (!observation.scan || !gate_.last()) return;
+  witness_.see(*observation.scan, gate_.last()->pose_world, observation.time, agent_->peers());
+  std::vector<int> doubted;
+  for (const Peer& peer : agent_->peers())
+    if (!witness_.trusts(peer.robot_id, observation.time)) doubted.push_back(peer.robot_id);
+  agent_->set_distrusted(std::move(doubted));
 }
 
 bool PlannerHost::well_formed(const TrajectoryMessage& message) const {
@@ -119,6 +130,7 @@ MessageVerdict PlannerHost::add_message(const TrajectoryMessage& message, double
   }
   // The agent's table judges the rest: order, age, clock.
   if (agent_) input_.messages.push_back(message);
+  witness_.hear(message, clock_.now());
   return MessageVerdict::accepted;
 }
 
@@ -169,6 +181,7 @@ void PlannerHost::forget_agent() {
 
 void PlannerHost::meet_clock_jump() {
   forget_agent();
+  witness_.forget();
   gate_.reset();
   last_scan_time_ = kNever;
   last_detections_time_ = kNever;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "host/peer_witness.hpp"
 #include "host/pose_gate.hpp"
 #include "host/step_clock.hpp"
 #include "spf/team/robot_agent.hpp"
@@ -100,6 +101,7 @@ class PlannerHost {
   [[nodiscard]] bool stands(double now) const;
   [[nodiscard]] std::string hindrance(double now) const;
   void plan(double now);
+  void doubt_peers(const Observation& observation);
   [[nodiscard]] bool well_formed(const TrajectoryMessage& message) const;
 
   int robot_id_;
@@ -107,6 +109,7 @@ class PlannerHost {
   HostParameters host_;
   PoseGate gate_;
   StepClock clock_;
+  PeerWitness witness_;
   std::optional<OccupancyMap> map_;
   bool needs_map_ = true;
   std::optional<RobotAgent> agent_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "spf/planning/braking.hpp"
 #include "spf/planning/clearance.hpp"
@@ -113,6 +114,7 @@ struct RobotAgent::Implementation {
 
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
+  std::vector<int> distrusted;         // peers whose discs explain nothing, sorted
   std::vector<IgnoredDisc> explained;  // of the observation under way, kept for its memory
   Trajectory committed;
   PlanResult result;
@@ -203,6 +205,7 @@ void RobotAgent::Implementation::explain_discs(double time) {
         {now, track.state.radius + kSlack + 2.0 * track.position_sigma(std::max(0.0, time - track.time))});
   }
   for (const Peer& peer : peers) {
+    if (std::binary_search(distrusted.begin(), distrusted.end(), peer.robot_id)) continue;
     explained.push_back(
         {peer.position(time), peer.radius + peer.growth + kSlack + 2.0 * peer.position_sigma});
   }
@@ -466,6 +469,9 @@ void RobotAgent::clear_goal() {
 }
 void RobotAgent::set_paused(bool paused) {
   implementation_->paused = paused;
+}
+void RobotAgent::set_distrusted(std::vector<int> robot_ids) {
+  implementation_->distrusted = std::move(robot_ids);
 }
 
 AgentOutput RobotAgent::step(double time, const AgentInput& input) {

@@ -76,6 +76,9 @@ class RobotAgent {
   void set_goal(const Eigen::Vector2d& goal_world, std::optional<double> goal_heading = std::nullopt);
   void clear_goal();
   void set_paused(bool paused);
+  /// Peers (sorted) whose discs explain no scan returns, since they are not where they say: what is seen
+  /// there is static. They are kept away from as before. Replaces the ones named before.
+  void set_distrusted(std::vector<int> robot_ids);
 
   /// The sequential form: receive, then plan and track where due. Call it at the rate of the pose
   /// measurements or faster; plans and control ticks happen at their own rates (AgentParameters). Times must

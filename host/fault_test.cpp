@@ -1,0 +1,223 @@
+// Each fault and its reaction, both hosts together: the table of docs/ros.md, without ROS.
+#include <gtest/gtest.h>
+
+#include "host/bench_test.hpp"
+
+namespace spf::host {
+namespace {
+
+constexpr double kStale = 0.3;       // [s] TeamParameters::stale_time
+constexpr double kReaction = 0.1;    // [s] within which braking begins
+constexpr double kStanding = 0.005;  // [m/s], [m] of a controller that settles on its place
+constexpr double kTick = Bench::kTick;
+
+/// Brakes in time, at the largest planned acceleration, stands with this reason, and goes on by itself.
+void expect_brakes_and_recovers(Bench& bench, bool& working, double earliest, double latest,
+                                const std::string& reason) {
+  bench.hardest_braking = 0.0;
+  working = false;
+  const double delay = bench.time_until_braking();
+  EXPECT_GE(delay, earliest);
+  EXPECT_LE(delay, latest);
+  const Eigen::Vector2d begun = bench.pose.position_world;
+  bench.run(2.0);
+  EXPECT_LT(bench.speed(), kStanding);
+  EXPECT_TRUE(bench.reason() == reason || to_string(bench.mode()) == reason)
+      << bench.reason() << ", " << to_string(bench.mode());
+  // v^2 / 2a = 0.5 m and the ramps of the jerk; the controller may lag behind its reference by a little.
+  EXPECT_LT((bench.pose.position_world - begun).norm(), 0.65);
+  EXPECT_GT(bench.hardest_braking, 0.8);
+  EXPECT_LT(bench.hardest_braking, 1.6);
+  const Eigen::Vector2d stood = bench.pose.position_world;
+  bench.run(1.0);
+  EXPECT_LT((bench.pose.position_world - stood).norm(), kStanding);
+  working = true;
+  bench.run(2.5);
+  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.mode());
+}
+
+TEST(Faults, DrivesToItsGoalWithoutAny) {
+  Bench bench;
+  bench.planner.set_goal({{4.0, 1.0}, std::nullopt});
+  bench.run(9.0);
+  EXPECT_LT((bench.pose.position_world - Eigen::Vector2d{4.0, 1.0}).norm(), 0.05);
+  EXPECT_EQ(bench.reason(), "arrived");
+  EXPECT_EQ(bench.mode(), TrackerMode::tracking);
+  EXPECT_EQ(bench.planner.counts().inputs_refused, 0u);
+}
+
+TEST(Faults, StalePose) {
+  Bench bench;
+  bench.drive();
+  expect_brakes_and_recovers(bench, bench.send_poses, kStale - kTick, kStale + kReaction, "stale pose");
+}
+
+TEST(Faults, StaleScan) {
+  Bench bench;
+  bench.drive();
+  // The last scan may be up to 0.1 s old when they end.
+  expect_brakes_and_recovers(bench, bench.send_scans, kStale - 0.1 - kTick, kStale + kReaction, "no scan");
+}
+
+TEST(Faults, StaleReportsOfObstacles) {
+  Bench bench;
+  bench.drive();
+  expect_brakes_and_recovers(bench, bench.send_detections, kStale - 0.1 - kTick, kStale + kReaction,
+                             "no report of obstacles");
+}
+
+TEST(Faults, SilentPlanner) {
+  Bench bench;
+  bench.drive();
+  expect_brakes_and_recovers(bench, bench.planner_alive, bench.host.plan_silence - 0.1 - kTick,
+                             bench.host.plan_silence + kReaction, "stale plan");
+}
+
+TEST(Faults, WhatIsNotReliedOnMayBeMissing) {
+  HostParameters parameters;
+  parameters.relies_on_scan = false;
+  parameters.relies_on_obstacles = false;
+  Bench bench{parameters};
+  bench.send_scans = bench.send_detections = false;
+  bench.drive();
+}
+
+TEST(Faults, SinglePosesThatAreNotNumbersOrFarAwayAreIgnored) {
+  Bench bench;
+  bench.drive();
+  long tick = 0;
+  bench.distort = [&](const Pose2& truth) {
+    Pose2 told = truth;
+    if (++tick % 2 == 0) told.position_world.x() = tick % 4 == 0 ? NAN : 1e3;
+    return told;
+  };
+  const Eigen::Vector2d from = bench.pose.position_world;
+  bench.run(2.0);
+  EXPECT_GT(bench.speed(), 0.9);
+  EXPECT_NEAR((bench.pose.position_world - from).norm(), 2.0, 0.1);
+  EXPECT_EQ(bench.mode(), TrackerMode::tracking);
+}
+
+TEST(Faults, PosesThatAreAllNotNumbersAreNone) {
+  Bench bench;
+  bench.drive();
+  bench.distort = [](const Pose2&) { return Pose2{{NAN, 0.0}, 0.0}; };
+  const double delay = bench.time_until_braking();
+  EXPECT_GE(delay, kStale - kTick);
+  EXPECT_LE(delay, kStale + kReaction);
+}
+
+TEST(Faults, AJumpIsAFaultUntilItPersistsThenARelocalisation) {
+  Bench bench;
+  bench.drive();
+  const Eigen::Vector2d jump{0.0, 3.0};
+  bench.distort = [&](const Pose2& truth) { return Pose2{truth.position_world + jump, truth.heading}; };
+  const double delay = bench.time_until_braking();
+  EXPECT_GE(delay, kStale - kTick);
+  EXPECT_LE(delay, kStale + kReaction);
+  bench.run(0.3);  // believed after half a second
+  const double before = bench.pose.position_world.y();
+  bench.run(6.0);
+  EXPECT_EQ(bench.planner.counts().restarts, 2u);
+  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.mode());
+  // The way to the goal leads down now; it is driven, not jumped.
+  EXPECT_LT(bench.pose.position_world.y(), before - 0.5);
+}
+
+TEST(Faults, AJumpThatPassesLeavesNoTrace) {
+  Bench bench;
+  bench.drive();
+  bench.distort = [](const Pose2& truth) {
+    return Pose2{truth.position_world + Eigen::Vector2d{3.0, 0.0}, 0.0};
+  };
+  bench.run(0.2);
+  bench.distort = nullptr;
+  bench.run(1.0);
+  EXPECT_GT(bench.speed(), 0.9);
+  EXPECT_EQ(bench.planner.counts().restarts, 1u);
+}
+
+TEST(Faults, EmergencyStopBrakesAndHoldsUntilReleased) {
+  Bench bench;
+  bench.drive();
+  bench.hardest_braking = 0.0;
+  bench.tracker.set_emergency_stop(true);
+  bench.planner.set_emergency_stop(true);
+  EXPECT_LE(bench.time_until_braking(), kReaction);
+  bench.run(3.0);
+  EXPECT_EQ(bench.speed(), 0.0);
+  EXPECT_EQ(bench.mode(), TrackerMode::emergency_stop);
+  EXPECT_EQ(bench.reason(), "emergency stop");
+  EXPECT_GT(bench.hardest_braking, 0.8);
+  bench.tracker.set_emergency_stop(false);
+  bench.planner.set_emergency_stop(false);
+  bench.run(2.0);
+  EXPECT_GT(bench.speed(), 0.9);
+}
+
+TEST(Faults, PauseCancelAndANewGoal) {
+  Bench bench;
+  bench.drive();
+  bench.planner.set_paused(true);
+  bench.run(2.0);
+  EXPECT_LT(bench.speed(), kStanding);
+  EXPECT_EQ(bench.reason(), "paused");
+  bench.planner.set_paused(false);
+  bench.run(2.0);
+  EXPECT_GT(bench.speed(), 0.9);
+  bench.planner.cancel();
+  bench.run(2.0);
+  EXPECT_LT(bench.speed(), 0.01);
+  EXPECT_EQ(bench.reason(), "no goal");
+  EXPECT_FALSE(bench.planner.set_goal({{NAN, 0.0}, std::nullopt}));
+  EXPECT_FALSE(bench.planner.set_goal({{1e9, 0.0}, std::nullopt}));
+  EXPECT_TRUE(bench.planner.set_goal({{-5.0, 0.0}, std::nullopt}));
+  bench.run(3.0);
+  EXPECT_LT(bench.velocity_world.x(), -0.9);
+}
+
+TEST(Faults, ClockJumpsBothWays) {
+  for (const double offset : {30.0, -30.0, -95.0}) {
+    SCOPED_TRACE(offset);
+    Bench bench;
+    bench.drive();
+    bench.clock_offset = offset;
+    const Eigen::Vector2d at = bench.pose.position_world;
+    EXPECT_LE(bench.time_until_braking(), kReaction);
+    bench.run(0.5);
+    EXPECT_LT((bench.pose.position_world - at).norm(), 1.0);
+    bench.run(4.5);
+    EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.mode());
+    EXPECT_EQ(bench.tracker.clock_jumps(), 1u);
+    EXPECT_EQ(bench.planner.clock_jumps(), 1u);
+  }
+}
+
+TEST(Faults, ARestartedPlannerWaitsForTheRobotToStandAndGoesOn) {
+  Bench bench;
+  bench.drive();
+  bench.restart_planner();
+  ASSERT_TRUE(bench.planner.set_goal({{15.0, 0.0}, std::nullopt}));  // latched by whoever sets it
+  const double delay = bench.time_until_braking();
+  EXPECT_LE(delay, bench.host.plan_silence + kReaction);
+  double hardest = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    const double before = bench.speed();
+    bench.tick();
+    hardest = std::max(hardest, std::abs(bench.speed() - before));
+  }
+  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.mode());
+  EXPECT_LT(hardest, 0.1);  // no jump: 2 m/s^2 over a control period
+}
+
+TEST(Faults, ARestartedTrackerTakesOverAtOnce) {
+  Bench bench;
+  bench.drive();
+  bench.restart_tracker();
+  bench.run(1.0);
+  EXPECT_GT(bench.speed(), 0.9);
+  EXPECT_EQ(bench.mode(), TrackerMode::tracking);
+}
+
+}  // namespace
+}  // namespace spf::host
