@@ -1,0 +1,55 @@
+// The bases of simulated robots as their drivers see them: velocity or wheel commands come in when they like,
+// wheel speeds go to the motors. A base whose commands stop does what a real one's watchdog does: it stops
+// its wheels. Times are simulated seconds.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "spf/robot/omni_kinematics.hpp"
+
+namespace spf_empc_ros {
+
+/// How regularly a base was commanded.
+struct CommandRecord {
+  long count = 0;
+  long late = 0;             ///< came more than 1.5 periods after the one before
+  long refused = 0;          ///< not finite, or of the wrong size
+  long cut = 0;              ///< beyond the wheels' limits
+  double longest_gap = 0.0;  ///< [s]
+};
+
+class SimulatedBases {
+ public:
+  static constexpr double kWatchdog = 0.5;  ///< [s] without a command until the wheels are stopped
+
+  /// `period` [s] is the one commands are expected at.
+  SimulatedBases(int robots, const spf::RobotParameters& robot, double period);
+
+  /// A velocity of the body (x, y, yaw rate) [m/s, m/s, rad/s]. One beyond the wheels' limits is slowed down
+  /// as a whole, so that the robot goes where it was told to, only later.
+  void command_twist(int robot, const Eigen::Vector3d& twist_body, double time);
+  /// Rim speeds [m/s]; each motor clips its own.
+  void command_wheels(int robot, const std::vector<double>& wheel_speeds, double time);
+
+  /// What the motors are told at a time [m/s].
+  [[nodiscard]] Eigen::Vector3d wheels(int robot, double time) const;
+  [[nodiscard]] const CommandRecord& record(int robot) const { return bases_[index(robot)].record; }
+
+ private:
+  struct Base {
+    Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  // [m/s]
+    double time = 0.0;                                       // [s] of the last command
+    bool commanded = false;
+    CommandRecord record;
+  };
+  [[nodiscard]] static std::size_t index(int robot) { return static_cast<std::size_t>(robot); }
+  void take(Base& base, const Eigen::Vector3d& wheel_speeds, double time) const;
+
+  spf::OmniKinematics kinematics_;
+  double period_;  // [s]
+  std::vector<Base> bases_;
+};
+
+}  // namespace spf_empc_ros

@@ -1,0 +1,23 @@
+# The simulator: a world for robots whose nodes cannot tell it from hardware.
+add_library(spf_empc_simulator STATIC
+  src/simulated_bases.cpp src/simulator_config.cpp src/simulator_messages.cpp src/simulator_node.cpp)
+spf_ros_options(spf_empc_simulator)
+target_link_libraries(spf_empc_simulator PUBLIC spf_empc_ros spf::study spf::sim)
+spf_ros_node(simulator_node SOURCES src/simulator_node_main.cpp LIBRARIES spf_empc_simulator)
+spf_ros_node(robot_file SOURCES src/robot_file_main.cpp LIBRARIES spf::study spf::config)
+catkin_install_python(PROGRAMS scripts/fleet_rviz scripts/fleet_watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY launch config rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+
+if(CATKIN_ENABLE_TESTING)
+  find_package(GTest REQUIRED)
+  add_executable(spf_empc_simulator_tests
+    test/package_files_test.cpp test/simulated_bases_test.cpp test/simulator_messages_test.cpp test/simulator_pace_test.cpp)
+  spf_ros_options(spf_empc_simulator_tests)
+  target_compile_definitions(spf_empc_simulator_tests PRIVATE SPF_EMPC_ROS_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+  target_link_libraries(spf_empc_simulator_tests PRIVATE spf_empc_simulator GTest::gtest GTest::gtest_main)
+  include(GoogleTest)
+  gtest_discover_tests(spf_empc_simulator_tests DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ros TIMEOUT 300)
+  add_test(NAME fleet_rviz_is_as_generated COMMAND ${CMAKE_COMMAND} -E env bash -c
+    "'${CMAKE_CURRENT_SOURCE_DIR}/scripts/fleet_rviz' --robots 5 --print | cmp - '${CMAKE_CURRENT_SOURCE_DIR}/rviz/fleet.rviz'")
+  set_tests_properties(fleet_rviz_is_as_generated PROPERTIES LABELS ros)
+endif()

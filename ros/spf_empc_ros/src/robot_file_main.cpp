@@ -1,0 +1,32 @@
+// robot_file SCENARIO [KEY=VALUE...] > robot.yaml
+// Prints the parameter file of a scenario's robots: what `config` of planner, tracker and perception is to be
+// when simulator_node runs that scenario and its robots are not the default ones.
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "config/robot_file.hpp"
+#include "sim/simulation.hpp"
+#include "study/scenario_file.hpp"
+
+int main(int argc, char** argv) {
+  if (argc < 2 || std::string{argv[1]} == "--help") {
+    std::cerr << "robot_file SCENARIO [KEY=VALUE...] > robot.yaml\n"
+                 "Prints the parameter file of a scenario's robots, for the nodes' parameter `config`.\n";
+    return argc < 2 ? 2 : 0;
+  }
+  try {
+    std::vector<spf::Setting> settings;
+    for (int i = 2; i < argc; ++i) settings.push_back({argv[i], "argument " + std::to_string(i)});
+    const spf::Study study = spf::read_study(argv[1], settings);
+    spf::RobotFile file;
+    file.method = study.method;
+    file.robot = study.robot;
+    file.agent = spf::sim::agent_parameters_for(spf::make_trial(study, 0), spf::agent_parameters(study));
+    std::cout << spf::to_yaml_text(file, true);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,29 @@
+// The files that users begin with are what they say they are.
+#include <gtest/gtest.h>
+
+#include "config/robot_file.hpp"
+#include "study/scenario_file.hpp"
+
+namespace spf_empc_ros {
+namespace {
+
+const std::string kConfig = std::string{SPF_EMPC_ROS_DIR} + "/config/";
+
+TEST(RobotYaml, IsTheRobotOfTheScenarios) {
+  spf::RobotFile expected;
+  expected.method = spf::Method::space_time;
+  expected.agent = spf::with_method(expected.agent, expected.method);
+  EXPECT_EQ(spf::to_yaml_text(spf::read_robot_file(kConfig + "robot.yaml")), spf::to_yaml_text(expected));
+  const spf::Study study = spf::read_study(kConfig + "fleet.yaml");
+  spf::RobotFile of_scenario = expected;
+  of_scenario.robot = study.robot;
+  EXPECT_EQ(spf::to_yaml_text(of_scenario), spf::to_yaml_text(expected));
+}
+
+TEST(FleetYaml, HasTheRobotsThatFleetLaunchStarts) {
+  const spf::Study study = spf::read_study(kConfig + "fleet.yaml");
+  EXPECT_EQ(spf::make_trial(study, 0).robots.size(), 5U);
+}
+
+}  // namespace
+}  // namespace spf_empc_ros

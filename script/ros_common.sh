@@ -1,0 +1,78 @@
+# Sourced by the ROS scripts after common.sh: builds the nodes, gives them a ROS network of their own on this machine,
+# and ends what was started in it, and nothing else.
+ros_build=build/ros
+
+# ros_build_nodes [target...]: the nodes, their messages for Python, and what else is named.
+ros_build_nodes() {
+  step "build of the ROS nodes"
+  if [[ ! -f $ros_build/CMakeCache.txt ]]; then
+    cmake --preset release -B "$ros_build" -D BUILD_ROS=ON -D SPF_BUILD_APPS=OFF -D SPF_BUILD_TESTS=OFF >/dev/null
+  fi
+  cmake --build "$ros_build" --parallel "$(jobs)" --target simulator_node planner_node tracker_node perception_node \
+    robot_node robot_file spf_empc_msgs_generate_messages_py "$@" | grep -v genmsg_check_deps >&2
+}
+
+# ros_network LOG_FOLDER: a master's address that nobody uses, and the packages that were built.
+ros_network() {
+  local port
+  port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
+  mkdir -p "$1"
+  set +u # catkin's file asks for variables that may not be set
+  # shellcheck disable=SC1091
+  source "$ros_build/devel/setup.bash"
+  set -u
+  export ROS_HOSTNAME=localhost ROS_MASTER_URI=http://localhost:$port ROS_LOG_DIR=$1 ROS_HOME=$1
+  unset ROS_IP ROS_NAMESPACE
+  ros_port=$port
+}
+
+# ros_start LOG_FILE COMMAND...: runs in the background, on its own; its process id is in ros_pid.
+ros_pids=()
+ros_start() {
+  local log=$1
+  shift
+  setsid "$@" >"$log" 2>&1 </dev/null &
+  ros_pid=$!
+  ros_pids+=("$ros_pid")
+}
+
+# Processes of this network: those that were started with its master's address.
+ros_processes() {
+  local file
+  for file in /proc/[0-9]*/environ; do
+    if { tr '\0' '\n' <"$file"; } 2>/dev/null | grep -qxF -e "ROS_MASTER_URI=$ROS_MASTER_URI" -e "ROS_MASTER_URI=$ROS_MASTER_URI/"; then
+      file=${file#/proc/}
+      file=${file%/environ}
+      [[ $file != "$$" && $file != "$BASHPID" ]] && echo "$file"
+    fi
+  done
+}
+
+# ros_stop PID [SECONDS]: asks for an end, and waits for it.
+ros_stop() {
+  local i
+  kill -INT "$1" 2>/dev/null || return 0
+  for ((i = 0; i < ${2:-20} * 10; ++i)); do
+    kill -0 "$1" 2>/dev/null || return 0
+    sleep 0.1
+  done
+}
+
+# Ends everything that ros_start began, the last first, and what that left behind.
+ros_end() {
+  local i pid
+  for ((i = ${#ros_pids[@]} - 1; i >= 0; --i)); do ros_stop "${ros_pids[i]}"; done
+  for pid in $(ros_processes); do kill -KILL "$pid" 2>/dev/null || true; done
+  wait 2>/dev/null || true
+  ros_pids=()
+}
+
+# ros_wait_for_master: until the master answers.
+ros_wait_for_master() {
+  local i
+  for ((i = 0; i < 300; ++i)); do
+    rosparam list >/dev/null 2>&1 && return 0
+    sleep 0.2
+  done
+  fail "the ROS master did not start"
+}
