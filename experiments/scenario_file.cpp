@@ -7,6 +7,7 @@
 #include "experiments/parameter_text.hpp"
 #include "experiments/yaml_reader.hpp"
 #include "experiments/yaml_writer.hpp"
+#include "spf/robot/robot_scale.hpp"
 
 namespace spf {
 namespace {
@@ -17,6 +18,13 @@ template <class E>
 E peek(const YamlNode& root, const char* key, E fallback) {
   InputProblems ignored;
   if (const YamlNode* node = root.find(key)) read_choice({*node, key, ignored}, fallback);
+  return fallback;
+}
+
+/// The robot of the document, on which other defaults depend.
+RobotParameters peek_robot(const YamlNode& root, RobotParameters fallback) {
+  InputProblems ignored;
+  if (const YamlNode* node = root.find("robot")) read_parameters(*node, fallback, ignored);
   return fallback;
 }
 
@@ -168,7 +176,9 @@ void check_drawn(const YamlNode& root, const Study& study, InputProblems& proble
 Study read_document(YamlNode root, const std::vector<Setting>& settings, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
   for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
-  Study study = default_study(peek_family(root), peek(root, "method", Study{}.method));
+  const SceneFamily family = peek_family(root);
+  const Method method = peek(root, "method", Study{}.method);
+  Study study = default_study(family, method, peek_robot(root, default_study(family, method).robot));
   read_parameters(root, study, problems);
   if (root.kind == YamlKind::map) {
     if (study.family == SceneFamily::explicit_scene)
@@ -183,15 +193,26 @@ Study read_document(YamlNode root, const std::vector<Setting>& settings, InputPr
 }  // namespace
 
 Study default_study(SceneFamily family, Method method) {
+  RobotParameters robot;
+  if (family != SceneFamily::explicit_scene)
+    robot = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family))).robot;
+  return default_study(family, method, robot);
+}
+
+Study default_study(SceneFamily family, Method method, const RobotParameters& robot) {
   Study study;
   study.family = family;
   study.method = method;
-  study.agent = with_method(AgentParameters{}, method);
-  if (family == SceneFamily::explicit_scene) return study;
-  const sim::FamilySetup setup = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family)));
-  study.layout = setup.layout;
-  study.robot = setup.robot;
-  study.simulation = setup.simulation;
+  study.agent = with_method(defaults_for(robot), method);
+  RobotParameters sized_for;  // the robot that the family's numbers are for
+  if (family != SceneFamily::explicit_scene) {
+    const sim::FamilySetup setup = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family)));
+    study.layout = setup.layout;
+    study.simulation = setup.simulation;
+    sized_for = setup.robot;
+  }
+  study.simulation = scaled(study.simulation, RobotScale{robot, sized_for});
+  study.robot = robot;
   return study;
 }
 
