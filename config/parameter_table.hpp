@@ -2,6 +2,7 @@
 // and JSON.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,12 +13,25 @@
 
 namespace spf {
 
+template <>
+struct EnumNames<Scale> {
+  static constexpr std::array<std::pair<Scale, const char*>, 7> values{
+      {{Scale::size, "size"},
+       {Scale::way, "way"},
+       {Scale::speed, "speed"},
+       {Scale::time, "time"},
+       {Scale::area, "size^2"},
+       {Scale::velocity_diffusion, "speed^2/time"},
+       {Scale::position_diffusion, "way^2/time"}}};
+};
+
 struct ParameterRow {
-  std::string key;    ///< "sensing.range"; entries of lists as "robots[].start"
-  std::string value;  ///< the default
-  std::string unit;   ///< "m", "1" for pure numbers, empty for choices and text
-  std::string range;  ///< "[0, 1]", or the names of a choice
-  std::string what;   ///< meaning and source
+  std::string key;           ///< "sensing.range"; entries of lists as "robots[].start"
+  std::string value;         ///< the default
+  std::string unit;          ///< "m", "1" for pure numbers, empty for choices and text
+  std::string range;         ///< "[0, 1]", or the names of a choice
+  std::string what;          ///< meaning and source
+  std::string follows = {};  ///< what of the robot the default follows (Scale), empty when it does not
 };
 
 /// Visitor for visit_fields; made by parameter_rows.
@@ -26,6 +40,9 @@ class ParameterRowCollector {
   template <class Value>
   void operator()(const char* name, const Value& value, const char* unit, Range range, const char* what) {
     rows_.push_back({prefix_ + name, to_text(value), unit, to_text(range), what});
+  }
+  void operator()(const char* name, const double& value, ScaledUnit unit, Range range, const char* what) {
+    rows_.push_back({prefix_ + name, to_text(value), unit.name, to_text(range), what, enum_name(unit.scale)});
   }
   template <class Choice>
   void operator()(const char* name, const Choice& value, const char* what) {

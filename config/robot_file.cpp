@@ -2,16 +2,29 @@
 
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
+#include "spf/robot/robot_scale.hpp"
 
 namespace spf {
 namespace {
 
+/// What a robot's file starts from: many defaults follow the robot (ScaledUnit).
+RobotFile defaults_of(Method method, const RobotParameters& robot) {
+  RobotFile file;
+  file.method = method;
+  file.robot = robot;
+  file.agent = with_method(defaults_for(robot), method);
+  file.host = scaled(file.host, RobotScale{robot});
+  return file;
+}
+
 RobotFile read_document(const YamlNode& root, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
-  RobotFile file;
-  InputProblems ignored;
-  if (const YamlNode* method = root.find("method")) read_choice({*method, "method", ignored}, file.method);
-  file.agent = with_method(file.agent, file.method);
+  Method method = RobotFile{}.method;
+  RobotParameters robot;
+  InputProblems ignored;  // the whole is read again below
+  if (const YamlNode* node = root.find("method")) read_choice({*node, "method", ignored}, method);
+  if (const YamlNode* node = root.find("robot")) read_parameters(*node, robot, ignored);
+  RobotFile file = defaults_of(method, robot);
   read_parameters(root, file, problems);
   problems.throw_if_any();
   return file;
@@ -20,11 +33,7 @@ RobotFile read_document(const YamlNode& root, InputProblems problems) {
 }  // namespace
 
 RobotFile read_robot_file(const std::string& path) {
-  if (path.empty()) {
-    RobotFile file;
-    file.agent = with_method(file.agent, file.method);
-    return file;
-  }
+  if (path.empty()) return defaults_of(RobotFile{}.method, {});
   InputProblems problems;
   const YamlNode root = read_yaml_file(path, problems);
   return read_document(root, std::move(problems));

@@ -22,17 +22,23 @@ Table table_of(const std::vector<ParameterRow>& rows) {
   Table table{{{"key", Alignment::left},
                {"default", Alignment::left},
                {"unit", Alignment::left},
+               {"follows", Alignment::left},
                {"range", Alignment::left},
                {"what", Alignment::left}}};
   for (const ParameterRow& row : rows)
-    table.add_row({"`" + row.key + "`", row.value, row.unit, row.range, row.what});
+    table.add_row({"`" + row.key + "`", row.value, row.unit, row.follows, row.range, row.what});
   return table;
 }
 
+/// What differs. With the same method, agents differ in what follows their robot alone: that goes without
+/// saying.
 std::string changes_text(const Study& base, const Study& changed) {
+  const bool same_method = base.method == changed.method;
   std::string text;
   for (const ParameterRow& row : differences(base, changed)) {
-    if (row.key == "family" || row.key == "method" || row.key == "crowd") continue;
+    if (row.key == "family" || row.key == "method" || row.key == "crowd" ||
+        (same_method && row.key.starts_with("agent.")))
+      continue;
     text += (text.empty() ? "" : ", ") + std::string{"`"} + row.key + ": " + row.value + "`";
   }
   return text.empty() ? "nothing" : text;
@@ -98,7 +104,18 @@ std::string parameter_page() {
       "are SI, "
       "angles in radians. `what` names the source where there is one: an equation or section of the paper, "
       "the "
-      "evaluation protocol, or our choice.\n";
+      "evaluation protocol, or our choice.\n\n"
+      "Defaults are written down for the standard robot (radius r = 0.3 m, speed v = 1 m/s, acceleration a = "
+      "1 m/s^2). "
+      "Where the column `follows` names something, another robot's default is this one times: `size` r / 0.3 "
+      "m; "
+      "`way` "
+      "max(r, 0.3 v^2 / a) / 0.3 m; `speed` v / (1 m/s); `time` (v / a + r / v) / 1.3 s, the time to stop "
+      "and "
+      "to leave "
+      "one's place. `spf run` with `--out` writes the values used into `scenario.yaml`. A value that is set "
+      "counts as "
+      "it is written, whatever the robot.\n";
   std::string section = "none yet";
   std::vector<ParameterRow> rows;
   const auto flush = [&] {

@@ -28,9 +28,9 @@ struct HostParameters {
           "the robot stands without fresh reports of moving obstacles, empty ones included");
     visit("plan_silence", self.plan_silence, "s", Range{0.05, 10.0},
           "without a word of the planner for this long the tracker brakes");
-    visit("largest_plan_error", self.largest_plan_error, "m", Range{0.05, 100.0},
+    visit("largest_plan_error", self.largest_plan_error, kMetresByWay, Range{0.05, 100.0},
           "farther from its plan the tracker stands and waits for a new one");
-    visit("jump_distance", self.jump_distance, "m", Range{0.01, 1000.0},
+    visit("jump_distance", self.jump_distance, kMetresBySize, Range{0.01, 1000.0},
           "a pose farther from where the robot can be is a jump");
     visit("jump_heading", self.jump_heading, "rad", Range{0.01, 6.3}, "likewise its heading");
     visit("jump_persistence", self.jump_persistence, "s", Range{0.0, 60.0},
@@ -39,13 +39,13 @@ struct HostParameters {
           "stamps may be ahead of the clock by so much");
     visit("clock_jump", self.clock_jump, "s", Range{0.1, 60.0},
           "a longer step of the clock, or one backwards, is a jump");
-    visit("largest_peer_radius", self.largest_peer_radius, "m", Range{0.01, 100.0},
+    visit("largest_peer_radius", self.largest_peer_radius, kMetresBySize, Range{0.01, 100.0},
           "messages of larger peers are malformed");
     visit("largest_peer_sigma", self.largest_peer_sigma, "m", Range{0.0, 100.0},
           "messages of peers that are less sure of their place are malformed");
-    visit("largest_peer_speed", self.largest_peer_speed, "m/s", Range{0.1, 100.0},
+    visit("largest_peer_speed", self.largest_peer_speed, kSpeedByRobot, Range{0.1, 100.0},
           "messages of faster peers are malformed");
-    visit("grid_size", self.grid_size, "m", Range{1.0, 1000.0},
+    visit("grid_size", self.grid_size, kMetresByWay, Range{1.0, 1000.0},
           "side of the sensed map, around the start, where no map is given");
   }
 };

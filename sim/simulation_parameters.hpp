@@ -121,9 +121,9 @@ struct SensingParameters {
     visit("beams", self.beams, "1", Range{3, 3600}, "beams of one turn of the range sensor");
     visit("range_sigma", self.range_sigma, "m", Range{0.0, 10.0}, "noise of one beam");
     visit("rate", self.rate, "Hz", Range{0.1, 200.0}, "rate of detections and scans");
-    visit("map_resolution", self.map_resolution, "m", Range{0.005, 10.0},
+    visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
           "node distance of the robots' grids");
-    visit("map_max_distance", self.map_max_distance, "m", Range{0.01, 100.0},
+    visit("map_max_distance", self.map_max_distance, kMetresBySize, Range{0.01, 100.0},
           "distances are exact up to here");
   }
 };

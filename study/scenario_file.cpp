@@ -11,6 +11,7 @@
 #include "config/yaml_writer.hpp"
 #include "sim/pedestrian_scene.hpp"
 #include "spf/math/random_stream.hpp"
+#include "spf/robot/robot_scale.hpp"
 #include "study/crowd_file.hpp"
 
 namespace spf {
@@ -22,6 +23,13 @@ template <class E>
 E peek(const YamlNode& root, const char* key, E fallback) {
   InputProblems ignored;
   if (const YamlNode* node = root.find(key)) read_choice({*node, key, ignored}, fallback);
+  return fallback;
+}
+
+/// The robot of the document, on which other defaults depend.
+RobotParameters peek_robot(const YamlNode& root, RobotParameters fallback) {
+  InputProblems ignored;
+  if (const YamlNode* node = root.find("robot")) read_parameters(*node, fallback, ignored);
   return fallback;
 }
 
@@ -196,7 +204,9 @@ void read_recording(const YamlNode& root, const std::string& file, Study& study,
 Study read_document(YamlNode root, const std::vector<Setting>& settings, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
   for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
-  Study study = default_study(peek_family(root), peek(root, "method", Study{}.method));
+  const SceneFamily family = peek_family(root);
+  const Method method = peek(root, "method", Study{}.method);
+  Study study = default_study(family, method, peek_robot(root, default_study(family, method).robot));
   const std::string file = root.place.source;
   read_parameters(root, study, problems);
   if (root.kind == YamlKind::map && has_recording(study)) read_recording(root, file, study, problems);
@@ -213,15 +223,26 @@ Study read_document(YamlNode root, const std::vector<Setting>& settings, InputPr
 }  // namespace
 
 Study default_study(SceneFamily family, Method method) {
+  RobotParameters robot;
+  if (family != SceneFamily::explicit_scene)
+    robot = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family))).robot;
+  return default_study(family, method, robot);
+}
+
+Study default_study(SceneFamily family, Method method, const RobotParameters& robot) {
   Study study;
   study.family = family;
   study.method = method;
-  study.agent = with_method(AgentParameters{}, method);
-  if (family == SceneFamily::explicit_scene) return study;
-  const sim::FamilySetup setup = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family)));
-  study.layout = setup.layout;
-  study.robot = setup.robot;
-  study.simulation = setup.simulation;
+  study.agent = with_method(defaults_for(robot), method);
+  RobotParameters sized_for;  // the robot that the family's numbers are for
+  if (family != SceneFamily::explicit_scene) {
+    const sim::FamilySetup setup = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family)));
+    study.layout = setup.layout;
+    study.simulation = setup.simulation;
+    sized_for = setup.robot;
+  }
+  study.simulation = scaled(study.simulation, RobotScale{robot, sized_for});
+  study.robot = robot;
   return study;
 }
 

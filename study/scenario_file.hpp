@@ -156,6 +156,8 @@ struct Study {
 
 /// The defaults of a family and a method.
 [[nodiscard]] Study default_study(SceneFamily family, Method method);
+/// The same for another robot than the family's: defaults that follow the robot (ScaledUnit) are its own.
+[[nodiscard]] Study default_study(SceneFamily family, Method method, const RobotParameters& robot);
 
 /// One value written over the file's.
 struct Setting {

@@ -13,7 +13,7 @@ int main() {
   const Eigen::Vector2d box_high{-1.0, 0.5};
   spf::OccupancyMap map{spf::GridFrame::covering({-6.0, -6.0}, {6.0, 6.0}, 0.1), 2.0};
   map.add_box(box_low, box_high);
-  spf::RobotAgent robot{1, spf::AgentParameters{}, map, {{-4.0, 0.0}, 0.0}, 0.0};
+  spf::RobotAgent robot{1, spf::defaults_for(spf::RobotParameters{}), map, {{-4.0, 0.0}, 0.0}, 0.0};
   robot.set_goal(goal);
 
   double least_clearance = 1e9;  // [m] between surfaces

@@ -22,9 +22,9 @@ struct FieldParameters {
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("attention", self.attention, "1", Range{0.0, 1.0},
           "weight of the present position, lambda of eq. 2");
-    visit("shift_interval", self.shift_interval, "s", Range{0.0, 10.0},
+    visit("shift_interval", self.shift_interval, kSecondsByRobot, Range{0.0, 10.0},
           "look-ahead of the centre, dt of eq. 2");
-    visit("stretch_time", self.stretch_time, "s", Range{0.0, 10.0},
+    visit("stretch_time", self.stretch_time, kSecondsByRobot, Range{0.0, 10.0},
           "travel folded into the long axis, t below eq. 3");
     visit("threshold_scale", self.threshold_scale, "1", Range{0.5, 5.0},
           "danger threshold, times the smallest ellipse that holds the obstacle now and after stretch_time");

@@ -18,6 +18,29 @@ struct Range {
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
 };
 
+/// What a default grows with from robot to robot (spf/robot/robot_scale.hpp). A value that somebody sets is
+/// taken as it is written.
+enum class Scale {
+  size,                ///< radius of the robot
+  way,                 ///< distance within which it can turn or stop
+  speed,               ///< its speed
+  time,                ///< time in which it can get out of the way
+  area,                ///< size squared
+  velocity_diffusion,  ///< speed^2 / time
+  position_diffusion,  ///< way^2 / time
+};
+
+/// A unit whose defaults follow the robot; stands in a field list where a unit's name does.
+struct ScaledUnit {
+  const char* name;
+  Scale scale;
+  constexpr operator const char*() const { return name; }  // NOLINT: most visitors only want the name
+};
+inline constexpr ScaledUnit kMetresBySize{"m", Scale::size};
+inline constexpr ScaledUnit kMetresByWay{"m", Scale::way};
+inline constexpr ScaledUnit kSpeedByRobot{"m/s", Scale::speed};
+inline constexpr ScaledUnit kSecondsByRobot{"s", Scale::time};
+
 /// Names of an enumeration: specialise with `static constexpr std::array<std::pair<E, const char*>, N>
 /// values`.
 template <class E>
@@ -32,7 +55,8 @@ template <class E>
 }
 
 /// A visitor handed to `visit_fields` is called as
-///   visit(name, number, unit, range, what)   for double and int
+///   visit(name, number, unit, range, what)   for double and int; a ScaledUnit as unit says that the default
+///                                            follows the robot
 ///   visit(name, value, what)                 for bool and for enumerations with EnumNames
 ///   visit.group(name, nested_parameters)     for nested structs with a visit_fields of their own
 /// `what` says in one sentence what the field is and where it comes from (equation, paper, our choice).

@@ -80,6 +80,7 @@ class ClearanceModel {
   [[nodiscard]] const std::vector<MovingDisc>& discs() const { return discs_; }
   [[nodiscard]] const std::vector<DangerRegion>& regions() const { return regions_; }
   [[nodiscard]] const OccupancyMap& map() const { return *map_; }
+  [[nodiscard]] double robot_radius() const { return robot_.radius; }  ///< [m]
 
   static constexpr double kShortestStep = 0.02;  ///< [s]
 

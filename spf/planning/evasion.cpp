@@ -9,8 +9,8 @@ namespace spf {
 namespace {
 
 constexpr int kDirections = 16;
-constexpr double kSidestepTime = 0.5;     // [s] towards the velocity before braking
-constexpr double kEnoughClearance = 0.5;  // [m] more is not better
+constexpr double kSidestepTime = 0.5;           // [s] towards the velocity before braking
+constexpr double kEnoughClearance = 0.5 / 0.3;  // [radii of the robot] more is not better
 
 /// Constant acceleration towards a velocity for kSidestepTime, then constant braking to rest.
 Trajectory sidestep(const FlatState& head, const Eigen::Vector2d& velocity, double time,
@@ -37,11 +37,10 @@ Trajectory sidestep(const FlatState& head, const Eigen::Vector2d& velocity, doub
   return trajectory;
 }
 
-bool better(const ClearanceReport& candidate, const ClearanceReport& best) {
+bool better(const ClearanceReport& candidate, const ClearanceReport& best, double enough) {
   if (candidate.clear() != best.clear()) return candidate.clear();
   if (candidate.clear()) {
-    return std::min(candidate.min_clearance, kEnoughClearance) >
-           std::min(best.min_clearance, kEnoughClearance);
+    return std::min(candidate.min_clearance, enough) > std::min(best.min_clearance, enough);
   }
   return candidate.time > best.time + 1e-9;
 }
@@ -50,11 +49,12 @@ bool better(const ClearanceReport& candidate, const ClearanceReport& best) {
 
 Evasion best_evasion(const FlatState& head, const HeadingState& heading, double time, double until,
                      const ClearanceModel& model, const RobotParameters& robot) {
+  const double enough = kEnoughClearance * robot.radius;
   const ClearanceWindow window{time, until, until, 0.5};
   Evasion best;
   best.trajectory = braking_trajectory(head, heading, time, robot);
   best.report = model.check(best.trajectory, window);
-  if (best.report.clear() && best.report.min_clearance >= kEnoughClearance) return best;
+  if (best.report.clear() && best.report.min_clearance >= enough) return best;
   const ClearanceWindow only_static{time, until, time, 0.5};
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * kPi * i / kDirections;
@@ -63,7 +63,7 @@ Evasion best_evasion(const FlatState& head, const HeadingState& heading, double 
       Trajectory trial = sidestep(head, part * robot.max_speed * direction, time, robot);
       if (!model.check(trial, only_static).clear()) continue;  // never into a wall to gain time
       const ClearanceReport report = model.check(trial, window);
-      if (!better(report, best.report)) continue;
+      if (!better(report, best.report, enough)) continue;
       trial.set_heading(stopping_heading(heading, time, robot));
       best = {trial, report, true};
     }

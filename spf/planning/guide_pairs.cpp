@@ -7,11 +7,11 @@
 namespace spf {
 namespace {
 
-constexpr double kStep = 0.03;    // [m] between dense samples in doubt
+constexpr double kStep = 0.1;     // [radii of the robot] between dense samples in doubt
 constexpr int kMaxSubsteps = 40;  // of one interval
-constexpr double kExplained =
-    0.05;  // [m] a pair explains a collision unless the node is this far on its good side
-constexpr double kOutOfSurface = 0.01;  // [m] endpoints of a search keep this beyond the margin
+// [radii] a pair explains a collision unless the node is this far on its good side
+constexpr double kExplained = 0.05 / 0.3;
+constexpr double kOutOfSurface = 0.01 / 0.3;  // [radii] endpoints of a search keep this beyond the margin
 
 /// Cubic through two neighbouring nodes with their velocities, u in [0, 1].
 Eigen::Vector2d between(const NodeSet& nodes, int k, double u) {
@@ -25,13 +25,14 @@ Eigen::Vector2d between(const NodeSet& nodes, int k, double u) {
 
 /// The place moved out of the static margin along the distance gradient; unchanged when it is free.
 Eigen::Vector2d moved_out(const ClearanceModel& model, Eigen::Vector2d position) {
+  const double wanted = kOutOfSurface * model.robot_radius();
   for (int i = 0; i < 10; ++i) {
     const double clearance = model.static_clearance(position);
-    if (clearance >= kOutOfSurface) break;
+    if (clearance >= wanted) break;
     const Eigen::Vector2d gradient = model.map().distance_gradient(position);
     const double norm = gradient.norm();
     if (norm < 1e-6) break;
-    position += (kOutOfSurface * 1.5 - clearance) / norm * gradient;
+    position += (wanted * 1.5 - clearance) / norm * gradient;
   }
   return position;
 }
@@ -78,7 +79,8 @@ bool GuidePairFinder::collect_stretches(const ClearanceModel& model, const NodeS
     // The curve between two nodes stays within their gap of the nearer one, with room for its bend.
     const bool surely_free = !inside && std::min(here, next) > 0.75 * gap;
     if (!surely_free) {
-      const int steps = std::clamp(static_cast<int>(std::ceil(gap / kStep)), 2, kMaxSubsteps);
+      const int steps =
+          std::clamp(static_cast<int>(std::ceil(gap / (kStep * model.robot_radius()))), 2, kMaxSubsteps);
       for (int s = 1; s <= steps; ++s) {
         const double clearance =
             s == steps ? next : model.static_clearance(between(nodes, k, static_cast<double>(s) / steps));
@@ -159,7 +161,7 @@ bool GuidePairFinder::pair_at(const ClearanceModel& model, const Eigen::Vector2d
   // 2. From there back towards `position` to the last free place. The clearance is a distance, so steps may
   // be as large as it.
   pair.normal = (crossing - position) / least;
-  constexpr double kSmallestStep = 0.005;  // [m]
+  const double smallest_step = model.robot_radius() / 60.0;
   double travelled = 0.0;
   double free_until = 0.0;
   while (travelled < least) {
@@ -169,7 +171,7 @@ bool GuidePairFinder::pair_at(const ClearanceModel& model, const Eigen::Vector2d
       return true;
     }
     free_until = travelled;
-    travelled += std::max(clearance, kSmallestStep);
+    travelled += std::max(clearance, smallest_step);
   }
   return false;  // nothing between the path and the place
 }
@@ -181,7 +183,8 @@ bool GuidePairFinder::new_collision(const ClearanceModel& model, const NodeSet& 
     if (model.static_clearance(position) >= 0.0) continue;
     bool explained = false;
     for (const GuidePair& pair : pairs)
-      explained = explained || (pair.node == k && signed_distance(pair, position) < kExplained);
+      explained = explained ||
+                  (pair.node == k && signed_distance(pair, position) < kExplained * model.robot_radius());
     if (!explained) return true;
   }
   return false;

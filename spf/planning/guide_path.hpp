@@ -24,11 +24,11 @@ struct GuidePathParameters {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit("clearance", self.clearance, "m", Range{0.0, 20.0},
+    visit("clearance", self.clearance, kMetresBySize, Range{0.0, 20.0},
           "distance to static surfaces that the global way keeps");
-    visit("resolution", self.resolution, "m", Range{0.005, 5.0},
+    visit("resolution", self.resolution, kMetresBySize, Range{0.005, 5.0},
           "spacing of the nodes of the global way's search");
-    visit("window_margin", self.window_margin, "m", Range{0.0, 1000.0},
+    visit("window_margin", self.window_margin, kMetresByWay, Range{0.0, 1000.0},
           "room around robot and goal that is searched first; all of the map follows when it holds no way");
     visit("blocked_factor", self.blocked_factor, "1", Range{1.0, 100.0}, "cost of a metre on blocked ground");
   }

@@ -20,12 +20,13 @@ struct OrcaParameters {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit("margin", self.margin, "m", Range{0.0, 5.0}, "distance beyond contact, towards everything");
-    visit("time_horizon", self.time_horizon, "s", Range{0.05, 60.0},
+    visit("margin", self.margin, kMetresBySize, Range{0.0, 5.0},
+          "distance beyond contact, towards everything");
+    visit("time_horizon", self.time_horizon, kSecondsByRobot, Range{0.05, 60.0},
           "a velocity must be free of contact with what moves for this long, tau of the publication");
-    visit("time_horizon_static", self.time_horizon_static, "s", Range{0.05, 60.0},
+    visit("time_horizon_static", self.time_horizon_static, kSecondsByRobot, Range{0.05, 60.0},
           "likewise for static surfaces");
-    visit("neighbour_distance", self.neighbour_distance, "m", Range{0.0, 1000.0},
+    visit("neighbour_distance", self.neighbour_distance, kMetresByWay, Range{0.0, 1000.0},
           "gap beyond which others do not count");
     visit("max_neighbours", self.max_neighbours, "1", Range{0, 1000}, "nearest others that count");
     visit("obstacle_share", self.obstacle_share, "1", Range{0.0, 1.0},
@@ -34,7 +35,7 @@ struct OrcaParameters {
           "places on a circle around the robot from which static surfaces are sought");
     visit("period", self.period, "s", Range{0.01, 2.0},
           "a velocity is held this long; the agent's plan_period");
-    visit("goal_tolerance", self.goal_tolerance, "m", Range{1e-6, 1.0},
+    visit("goal_tolerance", self.goal_tolerance, kMetresBySize, Range{1e-6, 1.0},
           "nearer to the goal than this no velocity is wanted");
     visit("right_hand_bias", self.right_hand_bias, "rad", Range{-1.0, 1.0},
           "turn of the wanted velocity to the right when others are near; it breaks symmetry");

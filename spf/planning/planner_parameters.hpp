@@ -87,23 +87,24 @@ struct PlannerParameters {
   static void visit_fields(Self& self, Visitor&& visit) {
     constexpr Range kLength{0.0, 100.0};
     visit("dynamic_model", self.dynamic_model, "what is assumed about moving obstacles");
-    visit("horizon", self.horizon, "m", Range{0.05, 100.0}, "way to the local target (ES2: 7.5)");
-    visit("piece_length", self.piece_length, "m", Range{0.01, 100.0}, "way per piece (ES2: 1.5)");
+    visit("horizon", self.horizon, kMetresByWay, Range{0.05, 100.0}, "way to the local target (ES2: 7.5)");
+    visit("piece_length", self.piece_length, kMetresByWay, Range{0.01, 100.0}, "way per piece (ES2: 1.5)");
     visit("max_pieces", self.max_pieces, "1", Range{2, 12}, "most pieces of a plan");
     visit("nodes_per_piece", self.nodes_per_piece, "1", Range{2, 20},
           "intervals between nodes in a piece, K (ES2: 5)");
     visit("checked_fraction", self.checked_fraction, "1", Range{0.1, 1.0},
           "part of the plan that heeds what moves; the rest is planned again before it is driven (ES2: 2/3)");
-    visit("static_margin", self.static_margin, "m", kLength,
+    visit("static_margin", self.static_margin, kMetresBySize, kLength,
           "beyond the radius, for search and checks of static obstacles");
-    visit("hard_clearance", self.hard_clearance, "m", Range{0.001, 100.0},
+    visit("hard_clearance", self.hard_clearance, kMetresBySize, Range{0.001, 100.0},
           "wanted beyond static_margin (ES2: 0.1)");
-    visit("soft_clearance", self.soft_clearance, "m", Range{0.001, 100.0},
+    visit("soft_clearance", self.soft_clearance, kMetresBySize, Range{0.001, 100.0},
           "comfortable beyond static_margin (ES2: 0.5)");
-    visit("peer_margin", self.peer_margin, "m", kLength,
+    visit("peer_margin", self.peer_margin, kMetresBySize, kLength,
           "beyond contact with peers and constant-velocity obstacles, for checks");
-    visit("peer_clearance", self.peer_clearance, "m", Range{0.001, 100.0}, "wanted beyond contact with them");
-    visit("safety_distance", self.safety_distance, "m", Range{0.001, 100.0}, "d_saf of eq. 10");
+    visit("peer_clearance", self.peer_clearance, kMetresBySize, Range{0.001, 100.0},
+          "wanted beyond contact with them");
+    visit("safety_distance", self.safety_distance, kMetresBySize, Range{0.001, 100.0}, "d_saf of eq. 10");
     visit("least_sideways", self.least_sideways, "1", Range{0.0, 1.0},
           "sine of the least angle between an escape direction and the way through the field; 0 = eq. 11 as "
           "printed");
@@ -122,7 +123,8 @@ struct PlannerParameters {
     visit("acceleration_tolerance", self.acceleration_tolerance, "1", Range{0.0, 1.0},
           "accepted excess over max_acceleration");
     visit("slow_factor", self.slow_factor, "1", Range{1.0, 10.0}, "stretch of time of the slow seed");
-    visit("goal_tolerance", self.goal_tolerance, "m", kLength, "closer and at rest, standing is the plan");
+    visit("goal_tolerance", self.goal_tolerance, kMetresBySize, kLength,
+          "closer and at rest, standing is the plan");
     visit("keep_candidates", self.keep_candidates,
           "keep every candidate's trajectory in the result (allocates)");
     visit.group("weights", self.weights);

@@ -50,7 +50,7 @@ void SpaceTimeRisk::prepare(const PlanRequest& request) {
   for (std::size_t i = 0; i < peers.size(); ++i) {
     const Peer& peer = peers[i];
     const double gap = (peer.position(request.time) - here).norm();
-    const double reach = 2.0 * max_speed_ * horizon + peer.radius + peer.growth + robot_radius_ + 1.0;
+    const double reach = 2.0 * max_speed_ * horizon + peer.radius + peer.growth + 4.0 * robot_radius_;
     if (gap < reach) order_.emplace_back(gap, -1 - static_cast<int>(i));
   }
   if (order_.size() > kMaxEntities) {

@@ -101,6 +101,10 @@ struct AgentParameters {
   }
 };
 
+/// The defaults for a robot: what follows the robot (ScaledUnit) is scaled from the standard one. This is
+/// where to start; what is set afterwards counts as it is written.
+[[nodiscard]] AgentParameters defaults_for(const RobotParameters& robot);
+
 /// The same robot with another method: changes only what the method names.
 [[nodiscard]] AgentParameters with_method(AgentParameters parameters, Method method);
 

@@ -20,9 +20,9 @@ namespace spf {
 namespace {
 
 constexpr double kTimeTolerance = 1e-9;  // [s] ticks that fall on a due time within rounding
-constexpr double kStandingSpeed = 0.05;  // [m/s] as in the evaluation protocol
+constexpr double kStandingSpeed = 0.05;  // [1] of max_speed: slower is standing
 constexpr double kStandingTime = 0.5;    // [s]
-constexpr double kArrivedSpeed = 0.1;    // [m/s]
+constexpr double kArrivedSpeed = 0.1;    // [1] of max_speed
 constexpr double kClockError = 0.1;      // [s] by which a sensor's clock may be ahead
 constexpr double kLongestNap = 10.0;     // [s] without a step, after which the schedule starts afresh
 
@@ -197,17 +197,16 @@ void RobotAgent::Implementation::receive_observation(double time, const Observat
 void RobotAgent::Implementation::explain_discs(double time) {
   // Returns from what is tracked or has told its place are not static; a little more than the disc itself,
   // since both places are uncertain.
-  constexpr double kSlack = 0.15;  // [m]
+  const double slack = 0.5 * parameters.robot.radius;
   explained.clear();
   for (const ObstacleTrack& track : obstacle_tracker.tracks()) {
     const Eigen::Vector2d now = track.state.position_world + (time - track.time) * track.state.velocity_world;
     explained.push_back(
-        {now, track.state.radius + kSlack + 2.0 * track.position_sigma(std::max(0.0, time - track.time))});
+        {now, track.state.radius + slack + 2.0 * track.position_sigma(std::max(0.0, time - track.time))});
   }
   for (const Peer& peer : peers) {
     if (std::binary_search(distrusted.begin(), distrusted.end(), peer.robot_id)) continue;
-    explained.push_back(
-        {peer.position(time), peer.radius + peer.growth + kSlack + 2.0 * peer.position_sigma});
+    explained.push_back({peer.position(time), peer.radius + peer.growth + slack + 2.0 * peer.position_sigma});
   }
 }
 
@@ -389,14 +388,15 @@ void RobotAgent::Implementation::brake(double time) {
 
 void RobotAgent::Implementation::update_status(double time) {
   const FlatState now = committed.state(time);
+  const double standing_speed = kStandingSpeed * parameters.robot.max_speed;
   const double soon = committed.state(time + 0.5).velocity_world.norm();
   // A robot that means to go soon, and still means to half a second later, stands.
-  if (now.velocity_world.norm() >= kStandingSpeed) last_motion_time = time;
-  const bool stands = now.velocity_world.norm() < kStandingSpeed &&
-                      (soon < kStandingSpeed || time - last_motion_time > kStandingTime);
+  if (now.velocity_world.norm() >= standing_speed) last_motion_time = time;
+  const bool stands = now.velocity_world.norm() < standing_speed &&
+                      (soon < standing_speed || time - last_motion_time > kStandingTime);
   status = {};
   if (goal && (now.position_world - *goal).norm() < parameters.team.goal_tolerance &&
-      now.velocity_world.norm() < kArrivedSpeed) {
+      now.velocity_world.norm() < kArrivedSpeed * parameters.robot.max_speed) {
     status.state = PeerState::arrived;
     status.reason = stands ? StandReason::arrived : StandReason::none;
     return;

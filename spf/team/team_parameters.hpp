@@ -33,9 +33,9 @@ struct TeamParameters {
           "time after which peers no longer rely on a broadcast");
     visit("stale_time", self.stale_time, "s", Range{0.02, 10.0},
           "time without pose or observation until the robot brakes");
-    visit("goal_tolerance", self.goal_tolerance, "m", Range{0.001, 1.0},
+    visit("goal_tolerance", self.goal_tolerance, kMetresBySize, Range{0.001, 1.0},
           "distance within which the robot counts itself arrived");
-    visit("reanchor_distance", self.reanchor_distance, "m", Range{0.02, 10.0},
+    visit("reanchor_distance", self.reanchor_distance, kMetresBySize, Range{0.02, 10.0},
           "distance from the plan beyond which it starts anew at the robot");
     visit("emergency_time", self.emergency_time, "s", Range{0.0, 10.0},
           "a predicted contact sooner than this makes the robot brake when it finds no plan");

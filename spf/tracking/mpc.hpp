@@ -42,7 +42,7 @@ struct MpcParameters {
     visit("dt", self.dt, "s", Range{1e-3, 1.0}, "time step of the prediction (paper: 0.1)");
     visit("position_weight", self.position_weight, "1/m^2", Range{1e-6, 1e6},
           "lambda_p of eq. 19 for x and y; our choice");
-    visit("heading_weight", self.heading_weight, "1/rad^2", Range{1e-6, 1e6},
+    visit("heading_weight", self.heading_weight, ScaledUnit{"1/rad^2", Scale::area}, Range{1e-6, 1e6},
           "lambda_p of eq. 19 for the heading; our choice");
     visit("effort_weight", self.effort_weight, "s^2/m^2", Range{1e-6, 1e6},
           "lambda_u of eq. 19, on wheel speeds minus the reference's; our choice");

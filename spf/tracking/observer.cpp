@@ -1,5 +1,6 @@
 #include "spf/tracking/observer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "spf/math/angles.hpp"
@@ -13,6 +14,7 @@ constexpr double kInitialDisturbanceSigma = 0.05;
 // Outliers that do not even agree with each other are believed after this many times readmit_count: then the
 // declared noise is wrong, and a bad measurement is better than none for ever.
 constexpr int kPatience = 4;
+constexpr double kLargestTurn = 1.0;  // [rad] of a sensor's jump
 
 }  // namespace
 
@@ -28,6 +30,7 @@ void PoseObserver::reset() {
   since_measurement_ = 0.0;
   agreeing_outliers_ = 0;
   outliers_in_a_row_ = 0;
+  following_jump_ = false;
 }
 
 void PoseObserver::start(const Triple& measured) {
@@ -61,8 +64,11 @@ MeasurementOutcome PoseObserver::correct(const Pose2& measured_world) {
   }
   const Triple difference =
       innovation(measured, {axes_[0].value(), axes_[1].value(), axes_[kHeading].value()});
-  if (!within_gate(difference, {axes_[0].variance(), axes_[1].variance(), axes_[kHeading].variance()}))
-    return reject(measured);
+  if (following_jump_) return follow_jump(difference);
+  // The gate of the first outlier is that of those that follow: it must not open while one waits at it.
+  if (outliers_in_a_row_ == 0)
+    gate_variance_ = {axes_[0].variance(), axes_[1].variance(), axes_[kHeading].variance()};
+  if (!within_gate(difference, gate_variance_)) return reject(measured);
   apply(difference);
   for (std::size_t i = 0; i < 3; ++i) {
     // The exact measurement itself, not a rounding beside it.
@@ -79,7 +85,8 @@ PoseObserver::Triple PoseObserver::innovation(const Triple& measured, const Trip
 bool PoseObserver::within_gate(const Triple& innovation, const Triple& variance) const {
   for (std::size_t i = 0; i < 3; ++i) {
     const double sigma = std::sqrt(variance[i] + noise_[i].measurement * noise_[i].measurement);
-    if (!(std::abs(innovation[i]) <= parameters_.gate * sigma + parameters_.gate_floor)) return false;
+    const double floor = i == kHeading ? parameters_.heading_gate_floor : parameters_.gate_floor;
+    if (!(std::abs(innovation[i]) <= parameters_.gate * sigma + floor)) return false;
   }
   return true;
 }
@@ -117,7 +124,12 @@ MeasurementOutcome PoseObserver::reject(const Triple& measured) {
       outliers_in_a_row_ < kPatience * parameters_.readmit_count)
     return MeasurementOutcome::rejected;
 
-  for (std::size_t i = 0; i < 3; ++i) {
+  agreeing_outliers_ = std::max(agreeing_outliers_, 1);
+  const Triple jump =
+      innovation(outlier_mean_, {axes_[0].value(), axes_[1].value(), axes_[kHeading].value()});
+  following_jump_ = is_sensor_jump(jump);
+  jump_ = jump;
+  for (std::size_t i = 0; i < 3 && !following_jump_; ++i) {
     const double variance = noise_[i].measurement * noise_[i].measurement;
     // An exact sensor is believed to the last measurement, a noisy one to the mean of those that agree.
     axes_[i].restart(variance > 0.0 ? outlier_mean_[i] : measured[i], variance / agreeing_outliers_);
@@ -127,6 +139,37 @@ MeasurementOutcome PoseObserver::reject(const Triple& measured) {
   agreeing_outliers_ = 0;
   outliers_in_a_row_ = 0;
   return MeasurementOutcome::readmitted;
+}
+
+bool PoseObserver::is_sensor_jump(const Triple& jump) const {
+  if (parameters_.kind != ObserverKind::kalman || parameters_.settling_time <= 0.0) return false;
+  return std::hypot(jump[0], jump[1]) <= parameters_.largest_jump && std::abs(jump[kHeading]) <= kLargestTurn;
+}
+
+// Mostly dead reckoning: the measured pose pulls with the settling time until it agrees with the estimate
+// again.
+MeasurementOutcome PoseObserver::follow_jump(const Triple& innovation) {
+  constexpr double kSmoothing = 0.2;  // of about five measurements
+  Triple change{};
+  for (std::size_t i = 0; i < 3; ++i) change[i] = innovation[i] - jump_[i];
+  if (within_gate(change, gate_variance_)) {
+    for (std::size_t i = 0; i < 3; ++i) jump_[i] += kSmoothing * change[i];
+  } else {
+    if (++outliers_in_a_row_ < parameters_.readmit_count) return MeasurementOutcome::rejected;
+    jump_ = innovation;  // it has jumped again
+  }
+  outliers_in_a_row_ = 0;
+  const double share = -std::expm1(-since_measurement_ / parameters_.settling_time);
+  bool settled = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    axes_[i].correct(innovation[i], {share, 0.0}, std::hypot(noise_[i].measurement, jump_[i]));
+    const double floor = i == kHeading ? parameters_.heading_gate_floor : parameters_.gate_floor;
+    settled = settled && std::abs(jump_[i]) <= std::max(floor, noise_[i].measurement);
+  }
+  axes_[kHeading].set_value(wrap_angle(axes_[kHeading].value()));
+  since_measurement_ = 0.0;
+  following_jump_ = !settled;
+  return MeasurementOutcome::used;
 }
 
 StateEstimate PoseObserver::estimate() const {

@@ -27,7 +27,7 @@ struct StateEstimate {
 enum class MeasurementOutcome {
   used,
   rejected,    ///< an outlier
-  readmitted,  ///< outliers that agree with each other: the estimate has jumped to them
+  readmitted,  ///< outliers that agree with each other: the estimate jumps to them, or begins to follow them
   invalid,     ///< not a number, ignored
 };
 
@@ -55,6 +55,8 @@ class PoseObserver {
   [[nodiscard]] bool within_gate(const Triple& innovation, const Triple& variance) const;
   void apply(const Triple& innovation);
   MeasurementOutcome reject(const Triple& measured);
+  [[nodiscard]] bool is_sensor_jump(const Triple& jump) const;
+  MeasurementOutcome follow_jump(const Triple& innovation);
 
   ObserverParameters parameters_;
   std::array<AxisNoise, 3> noise_;
@@ -65,6 +67,10 @@ class PoseObserver {
   Triple outlier_mean_{};
   int agreeing_outliers_ = 0;
   int outliers_in_a_row_ = 0;
+  Triple gate_variance_{};  // of the estimate when the first of them came
+  // While a jump of the measured pose is followed slowly: what it is still ahead of the estimate, smoothed.
+  bool following_jump_ = false;
+  Triple jump_{};
 };
 
 }  // namespace spf

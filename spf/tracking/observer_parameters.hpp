@@ -31,9 +31,12 @@ struct ObserverParameters {
   double heading_velocity_noise = 0.02;  ///< [rad/sqrt(s)]
   double heading_drift_noise = 0.02;     ///< [rad/s/sqrt(s)]
   double max_disturbance = 0.5;          ///< [m/s] and [rad/s], bound of the estimated disturbance
-  double gate = 6.0;        ///< [1] innovations beyond this many sigma (plus the floor) are outliers
-  double gate_floor = 0.1;  ///< [m] and [rad]
-  int readmit_count = 5;    ///< [1] outliers in a row that agree with each other are believed
+  double gate = 6.0;                ///< [1] innovations beyond this many sigma (plus the floor) are outliers
+  double gate_floor = 0.02;         ///< [m]
+  double heading_gate_floor = 0.1;  ///< [rad]
+  int readmit_count = 5;            ///< [1] outliers in a row that agree with each other are believed
+  double settling_time = 1.0;       ///< [s] in which they are, when they are a jump of at most largest_jump
+  double largest_jump = 1.0;        ///< [m] a larger one is believed at once: the robot was carried away
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -47,22 +50,28 @@ struct ObserverParameters {
           "standard deviation of a measured x or y; 0 = exact");
     visit("heading_sigma", self.heading_sigma, "rad", Range{0.0, 3.0},
           "standard deviation of a measured heading; 0 = exact");
-    visit("velocity_noise", self.velocity_noise, "m/sqrt(s)", Range{0.0, 10.0},
+    visit("velocity_noise", self.velocity_noise, ScaledUnit{"m/sqrt(s)", Scale::speed}, Range{0.0, 10.0},
           "white noise of the velocity (slip); our choice");
-    visit("drift_noise", self.drift_noise, "m/s/sqrt(s)", Range{0.0, 10.0},
+    visit("drift_noise", self.drift_noise, ScaledUnit{"m/s/sqrt(s)", Scale::speed}, Range{0.0, 10.0},
           "random walk of the disturbance velocity; our choice");
     visit("heading_velocity_noise", self.heading_velocity_noise, "rad/sqrt(s)", Range{0.0, 10.0},
           "white noise of the yaw rate; our choice");
     visit("heading_drift_noise", self.heading_drift_noise, "rad/s/sqrt(s)", Range{0.0, 10.0},
           "random walk of the yaw disturbance; our choice");
-    visit("max_disturbance", self.max_disturbance, "m/s", Range{0.0, 100.0},
+    visit("max_disturbance", self.max_disturbance, kSpeedByRobot, Range{0.0, 100.0},
           "bound of the estimated disturbance velocity (and yaw rate in rad/s)");
     visit("gate", self.gate, "1", Range{1.0, 100.0},
           "standard deviations beyond which a measurement is an outlier");
-    visit("gate_floor", self.gate_floor, "m", Range{0.0, 100.0},
-          "added to the gate, for x, y (and heading in rad)");
+    visit("gate_floor", self.gate_floor, kMetresBySize, Range{0.0, 100.0}, "added to the gate of x and y");
+    visit("heading_gate_floor", self.heading_gate_floor, "rad", Range{0.0, 100.0},
+          "added to the gate of the heading");
     visit("readmit_count", self.readmit_count, "1", Range{1, 1000},
           "consistent outliers in a row that are believed");
+    visit("settling_time", self.settling_time, "s", Range{0.0, 60.0},
+          "time constant with which the estimate follows a measured pose that has jumped: a sensor jumps (at "
+          "the seam of two cameras, say), a robot does not; 0 = at once");
+    visit("largest_jump", self.largest_jump, kMetresBySize, Range{0.0, 1000.0},
+          "a larger jump is followed at once: the robot was carried away");
   }
 };
 

@@ -251,6 +251,64 @@ TEST(PoseObserver, BelievesAJumpThatStays) {
   }
 }
 
+/// A robot on a straight way whose sensor jumps at t = 1 s and comes back within `decay` seconds (for ever:
+/// 0). Returns the largest error of the estimate on x [m] from then until 3 s after.
+double error_at_seam(const ObserverParameters& parameters, double jump, double decay) {
+  PoseObserver observer{parameters};
+  const double dt = 0.01;
+  const double speed = 0.3;
+  double largest = 0.0;
+  for (int i = 0; i <= 400; ++i) {
+    const double time = i * dt;
+    const double since = time - 1.0;
+    const double left = since < 0.0 ? 0.0 : (decay > 0.0 ? std::max(0.0, 1.0 - since / decay) : 1.0);
+    if (i > 0) observer.predict(dt, {speed, 0.0, 0.0});
+    observer.correct(pose(speed * time + jump * left, 0.0, 0.0));
+    largest = std::max(largest, std::abs(observer.estimate().pose_world.position_world.x() - speed * time));
+  }
+  return largest;
+}
+
+// The seam of two cameras: a robot does not jump by centimetres within a hundredth of a second.
+TEST(PoseObserver, KeepsToDeadReckoningAcrossASeam) {
+  ObserverParameters parameters = parameters_of(ObserverKind::kalman, 0.0);
+  parameters.velocity_noise = 0.015;  // a robot of 5 cm
+  parameters.gate_floor = 0.02 / 6.0;
+  for (const double jump : {0.02, -0.04, 0.06}) {
+    // Pulled for half a second by a mean of half the jump with a time constant of 1 s: a quarter at most.
+    EXPECT_LT(error_at_seam(parameters, jump, 0.5), 0.25 * std::abs(jump)) << jump;
+    ObserverParameters trusting = parameters;
+    trusting.settling_time = 0.0;
+    EXPECT_GT(error_at_seam(trusting, jump, 0.5), 0.8 * std::abs(jump)) << jump;
+  }
+}
+
+TEST(PoseObserver, FollowsASmallJumpThatStaysWithinItsSettlingTime) {
+  PoseObserver observer{parameters_of(ObserverKind::kalman, 0.0)};
+  observer.correct(pose(0.0, 0.0, 0.0));
+  const auto run = [&](double seconds) {
+    for (int i = 0; i < std::lround(100.0 * seconds); ++i) {
+      observer.predict(0.01, kRest);
+      observer.correct(pose(0.5, 0.0, 0.0));
+    }
+    return observer.estimate().pose_world.position_world.x();
+  };
+  const double soon = run(1.0);
+  EXPECT_GT(soon, 0.25);
+  EXPECT_LT(soon, 0.45);
+  EXPECT_EQ(run(5.0), 0.5);  // exact again once it agrees
+}
+
+TEST(PoseObserver, BelievesAtOnceThatItWasCarriedAway) {
+  PoseObserver observer{parameters_of(ObserverKind::kalman, 0.0)};
+  observer.correct(pose(0.0, 0.0, 0.0));
+  for (int i = 0; i < 5; ++i) {
+    observer.predict(0.01, kRest);
+    observer.correct(pose(3.0, 0.0, 0.0));
+  }
+  EXPECT_EQ(observer.estimate().pose_world.position_world.x(), 3.0);
+}
+
 TEST(PoseObserver, IsNeverLockedOutByNoiseBeyondWhatItWasTold) {
   PoseObserver observer{parameters_of(ObserverKind::kalman, 0.001)};
   RandomStream random{77};

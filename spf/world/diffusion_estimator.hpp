@@ -23,9 +23,11 @@ struct DiffusionParameters {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit("prior_velocity_diffusion", self.prior_velocity_diffusion, "m^2/s^3", Range{1e-8, 100.0},
+    visit("prior_velocity_diffusion", self.prior_velocity_diffusion,
+          ScaledUnit{"m^2/s^3", Scale::velocity_diffusion}, Range{1e-8, 100.0},
           "growth of an obstacle's velocity variance before anything is learnt (1 Sigma, walk)");
-    visit("prior_position_diffusion", self.prior_position_diffusion, "m^2/s", Range{1e-9, 10.0},
+    visit("prior_position_diffusion", self.prior_position_diffusion,
+          ScaledUnit{"m^2/s", Scale::position_diffusion}, Range{1e-9, 10.0},
           "growth of an obstacle's position variance before anything is learnt (1 Sigma, white)");
     visit("prior_duration", self.prior_duration, "s", Range{0.1, 1000.0},
           "seconds of data that the prior is worth");

@@ -26,9 +26,9 @@ struct ObstacleTrackerParameters {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("timeout", self.timeout, "s", Range{0.05, 60.0}, "a track that is unseen for longer is dropped");
-    visit("initial_speed", self.initial_speed, "m/s", Range{0.01, 50.0},
+    visit("initial_speed", self.initial_speed, kSpeedByRobot, Range{0.01, 50.0},
           "spread of the velocity of a new track");
-    visit("least_sigma", self.least_sigma, "m", Range{1e-6, 1.0},
+    visit("least_sigma", self.least_sigma, kMetresBySize, Range{1e-6, 1.0},
           "positions are never taken as more exact than this");
     visit("surprise", self.surprise, "1", Range{2.0, 20.0},
           "drift of the innovations in sigmas that starts the velocity afresh");

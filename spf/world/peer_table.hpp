@@ -26,9 +26,9 @@ struct PeerTableParameters {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("silence", self.silence, "s", Range{0.05, 60.0}, "without a message for this long a peer expires");
-    visit("growth_rate", self.growth_rate, "m/s", Range{0.0, 20.0},
+    visit("growth_rate", self.growth_rate, kSpeedByRobot, Range{0.0, 20.0},
           "growth of the radius of an expired peer");
-    visit("largest_growth", self.largest_growth, "m", Range{0.0, 100.0},
+    visit("largest_growth", self.largest_growth, kMetresBySize, Range{0.0, 100.0},
           "largest growth of an expired peer's radius");
     visit("forget_time", self.forget_time, "s", Range{0.0, 3600.0},
           "an expired peer is forgotten after this");

@@ -14,13 +14,13 @@ struct StaticCost {
   double hard_clearance = 0.1;  ///< [m] wanted beyond the edge
   double soft_clearance = 0.3;  ///< [m] comfortable beyond the edge
 
-  /// With e = clearance - signed distance and r = kSoftScale, where positive:
+  /// With e = clearance - signed distance and r = kSoftScale soft_clearance, where positive:
   /// P = hard_weight (e_hard / hard_clearance)^3 + soft_weight (r / soft_clearance) (sqrt(1 + (e_soft / r)^2)
   /// - 1).
   void add(const std::vector<GuidePair>& pairs, NodeSet& nodes) const;
 
-  /// [m] the soft part is quadratic below and linear above this excess (pseudo-Huber).
-  static constexpr double kSoftScale = 0.05;
+  /// [1] of soft_clearance: the soft part is quadratic below and linear above this excess (pseudo-Huber).
+  static constexpr double kSoftScale = 1.0 / 6.0;
 };
 
 }  // namespace spf

@@ -1,0 +1,47 @@
+// How large, fast and nimble a robot is compared with the standard one, RobotParameters{} (radius 0.3 m, 1
+// m/s, 1 m/s^2), for which the defaults of all parameters are written down. A toy car and a fork lift then
+// start from the same behaviour in their own scale.
+#pragma once
+
+#include <algorithm>
+
+#include "spf/math/parameters.hpp"
+#include "spf/robot/robot_parameters.hpp"
+
+namespace spf {
+
+class RobotScale {
+ public:
+  explicit RobotScale(const RobotParameters& robot, const RobotParameters& standard = {});
+
+  /// What a default with this scale is multiplied with [1].
+  [[nodiscard]] double factor(Scale scale) const;
+
+  // ---- as a visitor of visit_fields: scales every field that has a ScaledUnit, within its range.
+  void operator()(const char* /*name*/, double& value, ScaledUnit unit, Range range,
+                  const char* /*what*/) const {
+    const double one = factor(unit.scale);
+    if (one != 1.0) value = std::clamp(value * one, range.low, range.high);
+  }
+  template <class... Rest>
+  void operator()(const char* /*name*/, Rest&&... /*rest*/) const {}
+  template <class Nested>
+  void group(const char* /*name*/, Nested& nested) const {
+    Nested::visit_fields(nested, *this);
+  }
+
+ private:
+  double size_;   // [1]
+  double way_;    // [1]
+  double speed_;  // [1]
+  double time_;   // [1]
+};
+
+/// Parameters that suit one robot, made to suit another.
+template <class Parameters>
+[[nodiscard]] Parameters scaled(Parameters parameters, const RobotScale& scale) {
+  Parameters::visit_fields(parameters, scale);
+  return parameters;
+}
+
+}  // namespace spf
