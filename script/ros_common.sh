@@ -76,3 +76,13 @@ ros_wait_for_master() {
   done
   fail "the ROS master did not start"
 }
+
+# ros_wait_for_file FILE: until it is there.
+ros_wait_for_file() {
+  local i
+  for ((i = 0; i < 300; ++i)); do
+    [[ -e $1 ]] && return 0
+    sleep 0.2
+  done
+  fail "$1 did not come"
+}
