@@ -2,6 +2,7 @@
 // breaks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -58,7 +59,7 @@ TEST(PoseGate, JumpsThatDoNotAgreeAreNeverBelieved) {
 TrajectoryMessage told(int robot_id, double time, const Trajectory& trajectory) {
   TrajectoryMessage message;
   message.robot_id = robot_id;
-  message.sequence = static_cast<std::uint32_t>(time * 100.0);
+  message.sequence = std::isfinite(time) ? static_cast<std::uint32_t>(std::clamp(time * 100.0, 0.0, 4e9)) : 0;
   message.sent_time = time;
   message.expiry_time = time + 1.5;
   message.trajectory = trajectory;

@@ -57,6 +57,9 @@ class TrackerHost {
   PlanVerdict add_plan(const TrajectoryMessage& message, double now);
   void set_emergency_stop(bool stop) { emergency_stop_ = stop; }
   void set_paused(bool paused) { paused_ = paused; }
+  /// The host could not even read something.
+  void count_refused_plan() { ++plans_refused_; }
+  void count_refused_pose() { ++poses_refused_; }
 
   /// One control tick; never blocks, throws or allocates.
   const TrackerCommand& step(double now);

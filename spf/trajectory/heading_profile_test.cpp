@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "spf/math/random_stream.hpp"
 
@@ -145,6 +146,38 @@ TEST(HeadingProfile, ShiftsInTime) {
   EXPECT_EQ(profile.start_time(), 3.0);
   EXPECT_EQ(profile.state(3.75).heading, before.heading);
   EXPECT_EQ(profile.state(2.9).heading, 0.0);
+}
+
+TEST(HeadingProfile, TurnsIntoNumbersAndBackWithoutLoss) {
+  RandomStream random{7};
+  for (int i = 0; i < 500; ++i) {
+    const HeadingProfile profile = profile_of(draw_turn(random), 3.0);
+    const std::optional<HeadingProfile> back = HeadingProfile::from_phases(profile.phases());
+    ASSERT_TRUE(back);
+    for (double time = 2.5; time < 10.0; time += 0.17) {
+      EXPECT_EQ(back->state(time).heading, profile.state(time).heading);
+      EXPECT_EQ(back->state(time).yaw_rate, profile.state(time).yaw_rate);
+    }
+  }
+  EXPECT_TRUE(HeadingProfile::from_phases(HeadingProfile{}.phases()));
+}
+
+TEST(HeadingProfile, RefusesNumbersThatAreNoTurn) {
+  const HeadingPhases good = HeadingProfile{1.0, {0.2, 0.5}, 2.0, 1.0, 2.0}.phases();
+  const auto refused = [&good](auto spoil) {
+    HeadingPhases phases = good;
+    spoil(phases);
+    return !HeadingProfile::from_phases(phases);
+  };
+  const double nan = std::nan("");
+  EXPECT_FALSE(refused([](HeadingPhases&) {}));
+  EXPECT_TRUE(refused([](HeadingPhases& p) { p.ramp_in = -0.1; }));
+  EXPECT_TRUE(refused([](HeadingPhases& p) { p.cruise += 0.1; }));
+  EXPECT_TRUE(refused([](HeadingPhases& p) { p.target_heading += 0.01; }));
+  EXPECT_TRUE(refused([nan](HeadingPhases& p) { p.initial_rate = nan; }));
+  EXPECT_TRUE(refused([nan](HeadingPhases& p) { p.start_time = nan; }));
+  EXPECT_TRUE(refused([](HeadingPhases& p) { p.cruise_rate = 1e300; }));
+  EXPECT_TRUE(refused([](HeadingPhases& p) { p.ramp_out = 1e300; }));
 }
 
 }  // namespace

@@ -58,7 +58,10 @@ void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
   const Converted<spf::Pose2> pose = from_message(odometry->pose.pose);
   const Converted<spf::Pose2> frame =
       frames_.place(odometry->header.frame_id, config_.frame, odometry->header.stamp);
-  if (!pose || !frame) return refuse("odom", pose ? frame.refusal : pose.refusal);
+  if (!pose || !frame) {
+    host_.count_refused_pose();
+    return refuse("odom", pose ? frame.refusal : pose.refusal);
+  }
   const spf::host::PoseVerdict verdict =
       host_.add_pose({clock_.seconds(odometry->header.stamp), compose(*frame, *pose)}, now());
   if (!believed(verdict)) refuse("odom", to_string(verdict));
@@ -66,7 +69,10 @@ void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
 
 void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
   const Converted<ToldTrajectory> told = from_message(*trajectory, clock_, config_.frame);
-  if (!told) return refuse("trajectory", told.refusal);
+  if (!told) {
+    host_.count_refused_plan();
+    return refuse("trajectory", told.refusal);
+  }
   const spf::host::PlanVerdict verdict = host_.add_plan(told->message, now());
   if (verdict != spf::host::PlanVerdict::accepted) return refuse("trajectory", to_string(verdict));
   observed_ = told->observed;

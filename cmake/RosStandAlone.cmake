@@ -1,0 +1,24 @@
+# cmake -D BUILD_DIR=... -D CONFIG=... -D ROS_DIR=... -D LAUNCHER=... -P RosStandAlone.cmake
+# Installs the built library into an empty prefix and builds the ROS packages in a catkin workspace that knows it only by
+# find_package(spf), as somebody with robots would.
+set(work ${BUILD_DIR}/ros_stand_alone)
+file(REMOVE_RECURSE ${work}/prefix)
+file(MAKE_DIRECTORY ${work})
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status WORKING_DIRECTORY ${work} OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${output}\n${command}: ${status}")
+  endif()
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --config "${CONFIG}" --component development --prefix ${work}/prefix)
+run(catkin_make_isolated --source ${ROS_DIR} --build ${work}/build --devel ${work}/devel
+  --cmake-args -DCMAKE_PREFIX_PATH=${work}/prefix -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
+  -DCMAKE_BUILD_TYPE=Release)
+foreach(node planner_node tracker_node perception_node robot_node)
+  if(NOT EXISTS ${work}/devel/spf_empc_ros/lib/spf_empc_ros/${node})
+    message(FATAL_ERROR "${node} was not built")
+  endif()
+endforeach()

@@ -1,0 +1,70 @@
+#include "config/robot_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "config/parameter_table.hpp"
+
+namespace spf {
+namespace {
+
+std::string problems(const std::string& text) {
+  try {
+    static_cast<void>(robot_file_from_text(text, "robot.yaml"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RobotFile, ReadsWhatConcernsOneRobot) {
+  const RobotFile file = robot_file_from_text(
+      "method: spf_empc\nrobot: {radius: 0.25}\nagent: {team: {stale_time: 0.2}}\nhost: {relies_on_scan: "
+      "false}\n",
+      "robot.yaml");
+  EXPECT_EQ(file.method, Method::spf_empc);
+  EXPECT_EQ(file.host.relies_on_scan, false);
+  EXPECT_EQ(file.host.relies_on_obstacles, true);
+  const AgentParameters agent = agent_parameters(file);
+  EXPECT_EQ(agent.robot.radius, 0.25);
+  EXPECT_EQ(agent.team.stale_time, 0.2);
+  EXPECT_EQ(agent.generator, with_method(AgentParameters{}, Method::spf_empc).generator);
+}
+
+TEST(RobotFile, RefusesWithTheMessagesOfTheProgram) {
+  EXPECT_EQ(problems("robot: {radus: 1}\n"),
+            "robot.yaml:1:9: robot.radus = 1 is not a known key; did you mean robot.radius?");
+  EXPECT_EQ(problems("host: {plan_silence: 0}\n"),
+            "robot.yaml:1:22: host.plan_silence = 0 must lie in [0.05, 10] s");
+  EXPECT_NE(problems("robots: 5\n"), "");
+  EXPECT_NE(problems("agent: {ideal_tracking: true}\n"), "");
+  EXPECT_NE(problems("- 1\n"), "");
+}
+
+TEST(RobotFile, AnEmptyPathGivesTheDefaultsAndAMissingFileIsRefused) {
+  EXPECT_EQ(read_robot_file("").method, Method::space_time);
+  EXPECT_THROW(static_cast<void>(read_robot_file("/no/such/robot.yaml")), InputError);
+}
+
+TEST(RobotFile, ReadsBackWhatItWrites) {
+  RobotFile file = read_robot_file("");
+  file.host.clock_jump = 2.5;
+  file.robot.max_speed = 0.75;
+  const std::string text = to_yaml_text(file, true);
+  EXPECT_EQ(to_yaml_text(robot_file_from_text(text, "robot.yaml"), true), text);
+}
+
+TEST(RobotFile, ThePageOfTheNodesNamesEveryHostParameter) {
+  std::ostringstream page;
+  page << std::ifstream{std::string{SPF_SOURCE_DIR} + "/docs/ros.md"}.rdbuf();
+  for (const ParameterRow& row : parameter_rows(host::HostParameters{})) {
+    const std::string line =
+        "| `host." + row.key + "` | " + row.value + " | " + (row.unit.empty() ? "" : row.unit) + " |";
+    EXPECT_NE(page.str().find(line), std::string::npos) << line;
+  }
+}
+
+}  // namespace
+}  // namespace spf

@@ -1,0 +1,256 @@
+"""A small world for the nodes under test: robots that obey cmd_vel at once, their sensors, and switches to make these
+fail. Nodes run as processes of their own, which can be killed and started again."""
+import math
+import os
+import random
+import signal
+import subprocess
+import threading
+import time
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseStamped, Twist
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import LaserScan
+from spf_empc_msgs.msg import ObstacleTracks, RobotStatus, TrackerStatus, WheelSpeeds
+
+HALF_LENGTH, HALF_WIDTH, CELL = 45.0, 4.0, 0.2  # [m] of the hall
+BASE_TIMEOUT = 0.3  # [s] after which a base stands without commands, as real ones do
+
+
+def node_program(name):
+    folder = os.environ.get("SPF_ROS_NODES") or subprocess.check_output(
+        ["catkin_find", "--first-only", "--libexec", "spf_empc_ros"], text=True).strip()
+    return os.path.join(folder, name)
+
+
+class Robot:
+    """One robot: its truth, its sensors, and what its nodes said."""
+
+    def __init__(self, number, x=0.0, y=0.0):
+        self.number = number
+        self.x, self.y, self.heading = x, y, 0.0
+        self.odom_on = self.scan_on = self.obstacles_on = True
+        self.distort = lambda x, y: (x, y)
+        self.last = {}  # stamp of the last message of each sensor
+        self.command, self.command_time = Twist(), 0.0
+        self.speeds = []  # (stamp [s], commanded speed [m/s]) of every control tick
+        self.status, self.tracker = RobotStatus(), TrackerStatus()
+        self.processes = {}
+        space = "/robot%d/" % number
+        self.odom = rospy.Publisher(space + "odom", Odometry, queue_size=10, tcp_nodelay=True)
+        self.scan = rospy.Publisher(space + "scan", LaserScan, queue_size=2, tcp_nodelay=True)
+        self.obstacles = rospy.Publisher(space + "obstacles", ObstacleTracks, queue_size=2, tcp_nodelay=True)
+        self.goal = rospy.Publisher(space + "goal", PoseStamped, queue_size=1, latch=True)
+        rospy.Subscriber(space + "cmd_vel", Twist, self.on_command, tcp_nodelay=True)
+        rospy.Subscriber(space + "wheel_speeds", WheelSpeeds, self.on_wheels, tcp_nodelay=True)
+        rospy.Subscriber(space + "status", RobotStatus, lambda m: setattr(self, "status", m))
+        rospy.Subscriber(space + "tracker_status", TrackerStatus, lambda m: setattr(self, "tracker", m))
+
+    # ---- nodes
+    def start(self, program, *arguments):
+        name = program.replace("_node", "")
+        environment = dict(os.environ, ROS_NAMESPACE="/robot%d" % self.number)
+        log = open(os.path.join(os.environ.get("ROS_LOG_DIR", "/tmp"), "robot%d_%s.log" % (self.number, name)), "a")
+        self.processes[program] = subprocess.Popen(
+            [node_program(program), "__name:=" + name, "_robot_id:=%d" % self.number] + list(arguments),
+            env=environment, stdout=log, stderr=log)
+        log.close()
+
+    def start_all(self, *arguments):
+        for program in ("planner_node", "tracker_node", "perception_node"):
+            self.start(program, *arguments)
+
+    def kill(self, program):
+        self.processes[program].send_signal(signal.SIGKILL)
+        self.processes[program].wait()
+
+    def alive(self):
+        return all(process.poll() is None for process in self.processes.values())
+
+    # ---- what it is told, and tells
+    def on_command(self, message):
+        self.command, self.command_time = message, time.monotonic()
+
+    def on_wheels(self, message):
+        if len(message.speeds) == 3:
+            # Three wheels 120 degrees apart: the sum of squares is 3/2 of the squared speed without turning.
+            self.speeds.append((message.header.stamp.to_sec(), math.sqrt(sum(v * v for v in message.speeds) / 1.5)))
+
+    def speed(self):
+        return self.speeds[-1][1] if self.speeds else 0.0
+
+    def send_goal(self, x, y):
+        message = PoseStamped()
+        message.header.frame_id = "map"
+        message.pose.position.x, message.pose.position.y, message.pose.orientation.w = x, y, 1.0
+        self.goal.publish(message)
+
+    def move(self, dt):
+        if time.monotonic() - self.command_time > BASE_TIMEOUT:
+            self.command = Twist()
+        c, s = math.cos(self.heading), math.sin(self.heading)
+        self.x += dt * (c * self.command.linear.x - s * self.command.linear.y)
+        self.y += dt * (s * self.command.linear.x + c * self.command.linear.y)
+        self.heading += dt * self.command.angular.z
+
+    def sense(self, stamp, tick):
+        if self.odom_on:
+            message = Odometry()
+            message.header.stamp, message.header.frame_id = stamp, "map"
+            message.child_frame_id = "robot%d/base_link" % self.number
+            message.pose.pose.position.x, message.pose.pose.position.y = self.distort(self.x, self.y)
+            message.pose.pose.orientation.z = math.sin(0.5 * self.heading)
+            message.pose.pose.orientation.w = math.cos(0.5 * self.heading)
+            self.odom.publish(message)
+            self.last["odom"] = stamp.to_sec()
+        if tick % 10 == 0 and self.scan_on:
+            self.scan.publish(free_scan(stamp, self.number))
+            self.last["scan"] = stamp.to_sec()
+        if tick % 10 == 5 and self.obstacles_on:
+            message = ObstacleTracks()
+            message.header.stamp, message.header.frame_id = stamp, "map"
+            self.obstacles.publish(message)
+            self.last["obstacles"] = stamp.to_sec()
+
+
+def free_scan(stamp, number, beams=90):
+    message = LaserScan()
+    message.header.stamp, message.header.frame_id = stamp, "robot%d/base_link" % number
+    message.angle_min, message.angle_max = -math.pi, math.pi - 2.0 * math.pi / beams
+    message.angle_increment, message.range_max = 2.0 * math.pi / beams, 8.0
+    message.ranges = [float("inf")] * beams
+    return message
+
+
+class World:
+    """Moves the robots and their sensors at 100 Hz on a thread; with `simulated`, it is the clock as well."""
+
+    def __init__(self, robots, simulated=False):
+        self.robots = robots
+        self.simulated_time = 1000.0 if simulated else None
+        self.least_distance = float("inf")
+        self.diagnostics = set()
+        self.ended = False
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
+        self.clock = rospy.Publisher("/clock", Clock, queue_size=10) if simulated else None
+        self.map = rospy.Publisher("/map", OccupancyGrid, queue_size=1, latch=True)
+        self.map.publish(hall())
+        self.thread = threading.Thread(target=self.run, daemon=True)
+        self.thread.start()
+
+    def on_diagnostics(self, message):
+        for status in message.status:
+            self.diagnostics.add((status.name, status.message))
+
+    def stamp(self):
+        return rospy.Time.from_sec(self.simulated_time) if self.clock else rospy.Time.from_sec(time.time())
+
+    def run(self):
+        tick, before = 0, time.monotonic()
+        while not self.ended:
+            time.sleep(max(0.0, before + 0.01 - time.monotonic()))
+            now = time.monotonic()
+            dt, before = (0.01 if self.clock else now - before), now
+            if self.clock:
+                self.simulated_time += dt
+                self.clock.publish(Clock(clock=self.stamp()))
+            tick += 1
+            for robot in self.robots:
+                robot.move(dt)
+                robot.sense(self.stamp(), tick)
+            for i, one in enumerate(self.robots):
+                for other in self.robots[:i]:
+                    self.least_distance = min(self.least_distance, math.hypot(one.x - other.x, one.y - other.y))
+
+    def end(self):
+        self.ended = True
+        self.thread.join()
+        for robot in self.robots:
+            for process in robot.processes.values():
+                if process.poll() is None:
+                    process.terminate()
+        for robot in self.robots:
+            for process in robot.processes.values():
+                try:
+                    process.wait(timeout=5)
+                except subprocess.TimeoutExpired:
+                    process.kill()
+
+
+def hall():
+    """An empty hall; the world ends at its edges."""
+    grid = OccupancyGrid()
+    grid.header.frame_id = "map"
+    grid.info.resolution = CELL
+    grid.info.width, grid.info.height = round(2 * HALF_LENGTH / CELL), round(2 * HALF_WIDTH / CELL)
+    grid.info.origin.position.x, grid.info.origin.position.y = -HALF_LENGTH, -HALF_WIDTH
+    grid.info.origin.orientation.w = 1.0
+    grid.data = [0] * (grid.info.width * grid.info.height)
+    return grid
+
+
+def wait_until(condition, seconds):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        time.sleep(0.01)
+    return condition()
+
+
+def drive(robot, seconds=20.0):
+    """Sends it to the end of the hall that is farther away, and waits until it goes there at full speed."""
+    goal = 40.0 if robot.x < 0.0 else -40.0
+    robot.send_goal(goal, 0.0)
+
+    def under_way():
+        forward = robot.command.linear.x * math.copysign(1.0, goal) * math.cos(robot.heading)
+        return robot.speed() > 0.9 and forward > 0.8
+    return wait_until(under_way, seconds)
+
+
+def braking_begins(robot, after, longest=3.0):
+    """The stamp [s] of the first command that is clearly slower than one before it, from a time on; None: never."""
+    def find():
+        top = 0.0
+        for stamp, speed in list(robot.speeds):
+            if stamp < after:
+                continue
+            if speed < top - 0.03:
+                return stamp
+            top = max(top, speed)
+        return None
+    wait_until(lambda: find() is not None, longest)
+    return find()
+
+
+def stands(robot, seconds=3.0):
+    return wait_until(lambda: robot.speed() < 0.01, seconds)
+
+
+class LossyAir:
+    """Carries broadcasts from each robot's topic to the others', with loss and delay."""
+
+    def __init__(self, topics, message_type, loss, longest_delay, seed=1):
+        self.random = random.Random(seed)
+        self.loss, self.longest_delay = loss, longest_delay
+        self.sent = self.lost = 0
+        self.publishers = {topic: rospy.Publisher(topic, message_type, queue_size=50) for topic in topics}
+        for number, topic in enumerate(topics):
+            rospy.Subscriber(topic, message_type, self.carry, callback_args=(number, topic), tcp_nodelay=True)
+
+    def carry(self, message, source):
+        number, topic = source
+        if message.robot_id != number:
+            return  # carried here by us
+        for other, publisher in self.publishers.items():
+            if other == topic:
+                continue
+            self.sent += 1
+            if self.random.random() < self.loss:
+                self.lost += 1
+            else:
+                threading.Timer(self.random.uniform(0.0, self.longest_delay), publisher.publish, [message]).start()
