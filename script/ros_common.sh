@@ -1,16 +1,5 @@
-# Sourced by the ROS scripts after common.sh: builds the nodes, gives them a ROS network of their own on this machine,
-# and ends what was started in it, and nothing else.
-ros_build=build/ros
-
-# ros_build_nodes [target...]: the nodes, their messages for Python, and what else is named.
-ros_build_nodes() {
-  step "build of the ROS nodes"
-  if [[ ! -f $ros_build/CMakeCache.txt ]]; then
-    cmake --preset release -B "$ros_build" -D BUILD_ROS=ON -D SPF_BUILD_APPS=OFF -D SPF_BUILD_TESTS=OFF >/dev/null
-  fi
-  cmake --build "$ros_build" --parallel "$(jobs)" --target simulator_node planner_node tracker_node perception_node \
-    robot_node robot_file spf_empc_msgs_generate_messages_py "$@" | grep -v genmsg_check_deps >&2
-}
+# Sourced by the ROS scripts after common.sh: gives the nodes a ROS network of their own on this machine, and ends what was
+# started in it, and nothing else.
 
 # ros_network LOG_FOLDER: a master's address that nobody uses, and the packages that were built.
 ros_network() {
@@ -19,7 +8,7 @@ ros_network() {
   mkdir -p "$1"
   set +u # catkin's file asks for variables that may not be set
   # shellcheck disable=SC1091
-  source "$ros_build/devel/setup.bash"
+  source build/release/devel/setup.bash
   set -u
   export ROS_HOSTNAME=localhost ROS_MASTER_URI=http://localhost:$port ROS_LOG_DIR=$1 ROS_HOME=$1
   unset ROS_IP ROS_NAMESPACE
@@ -75,4 +64,14 @@ ros_wait_for_master() {
     sleep 0.2
   done
   fail "the ROS master did not start"
+}
+
+# ros_wait_for_file FILE: until it is there.
+ros_wait_for_file() {
+  local i
+  for ((i = 0; i < 300; ++i)); do
+    [[ -e $1 ]] && return 0
+    sleep 0.2
+  done
+  fail "$1 did not come"
 }

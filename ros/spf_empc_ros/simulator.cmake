@@ -20,4 +20,9 @@ if(CATKIN_ENABLE_TESTING)
   add_test(NAME fleet_rviz_is_as_generated COMMAND ${CMAKE_COMMAND} -E env bash -c
     "'${CMAKE_CURRENT_SOURCE_DIR}/scripts/fleet_rviz' --robots 5 --print | cmp - '${CMAKE_CURRENT_SOURCE_DIR}/rviz/fleet.rviz'")
   set_tests_properties(fleet_rviz_is_as_generated PROPERTIES LABELS ros)
+  # Skipped where network namespaces cannot be made.
+  add_test(NAME ros.two_machines COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh /usr/bin/python3
+    ${CMAKE_CURRENT_SOURCE_DIR}/test/two_machines.py)
+  set_tests_properties(ros.two_machines PROPERTIES LABELS ros RUN_SERIAL ON TIMEOUT 300 SKIP_RETURN_CODE 77
+    ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 endif()
