@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -185,6 +186,60 @@ struct BadCampaign {
   std::string expected;
 };
 
+TEST_F(CampaignProgram, LinksAsManyReplaysAsAskedForAndMakesEachOnce) {
+  run_whole();
+  const auto files = [&] {
+    std::map<std::string, fs::file_time_type> times;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator{folder_ / "whole" / "report_replays", none})
+      times[entry.path().filename().string()] = entry.last_write_time();
+    return times;
+  };
+  ASSERT_EQ(run("report whole --replays 0").status, 0);
+  EXPECT_TRUE(files().empty());
+  ASSERT_EQ(run("report whole --replays 2").status, 0);
+  const auto first = files();
+  EXPECT_EQ(first.size(), 2u);
+  ASSERT_EQ(run("report whole --replays all").status, 0);
+  const auto all = files();
+  EXPECT_EQ(all.size(), 12u);  // every failed trial
+  for (const auto& [name, time] : first) EXPECT_EQ(all.at(name), time);
+  EXPECT_EQ(text_of(folder_ / "whole" / "report.html").find("adds the others"), std::string::npos);
+}
+
+/// The very lines of docs/campaigns.md, but for the campaign and the number of parts.
+TEST_F(CampaignProgram, RunsUnderGnuParallelAsDocumented) {
+  if (std::system("parallel --version 2>/dev/null | grep -q '^GNU parallel'") != 0)
+    GTEST_SKIP() << "GNU parallel is not installed (Debian: parallel)";
+  run_whole();
+  std::vector<std::string> documented;
+  bool wanted = false;
+  for (const std::string& line : lines_of(fs::path{kSource} / "docs" / "campaigns.md")) {
+    if (line.starts_with("parallel ")) wanted = true;
+    if (line == "```") wanted = false;
+    if (wanted) documented.push_back(line);
+  }
+  ASSERT_EQ(documented.size(), 2u);
+  std::string script = "set -e\n";
+  for (std::string line : documented) {
+    for (const auto& [from, to] :
+         std::vector<std::pair<std::string, std::string>>{{"spf ", std::string{SPF_PROGRAM} + " "},
+                                                          {"table2 --trials 500", "small.yaml"},
+                                                          {"{}/16", "{}/3"},
+                                                          {"$(seq 16)", "$(seq 3)"}}) {
+      const std::size_t at = line.find(from);
+      if (at != std::string::npos) line.replace(at, from.size(), to);
+    }
+    script += line + (line.starts_with("parallel") ? "" : " --json merged.jsonl") + "\n";
+  }
+  write("parts.sh", script);
+  for (int again = 0; again < 2; ++again) {  // the same line may be run again
+    ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && bash parts.sh >parts.log 2>&1").c_str()), 0)
+        << text_of(folder_ / "parts.log");
+    EXPECT_EQ(rows_in("merged.jsonl"), rows_in("whole.jsonl"));
+  }
+}
+
 TEST_F(CampaignProgram, RefusesBadFilesWithPlaceAndHint) {
   const std::vector<BadCampaign> table{
       {"", "bad.yaml: is empty"},
@@ -236,12 +291,13 @@ TEST_F(CampaignProgram, RefusesBadUsage) {
 
 TEST_F(CampaignProgram, ReportsFailuresWithReplays) {
   run_whole();
-  const Finished report = run("report whole --replays 2 --csv --markdown");
+  const Finished report = run("report whole --replays 2 --csv --markdown --charts charts");
   ASSERT_EQ(report.status, 0) << report.error;
   EXPECT_EQ(report.error, "");
   const std::string page = text_of(folder_ / "whole" / "report.html");
-  for (const char* words : {"Two robots and a disc", "not home in time, moving", "McNemar",
-                            "spf run whole/cells/", "report_replays/small_", "<svg "})
+  for (const char* words :
+       {"Two robots and a disc", "not home in time, moving", "McNemar", "spf run whole/cells/",
+        "report_replays/small_", "<svg ", "2 of 12 failed trials have their replay here"})
     EXPECT_THAT(page, HasSubstr(words));
   EXPECT_EQ(page.find("http://"), std::string::npos);
   EXPECT_EQ(page.find("https://"), std::string::npos);
@@ -251,6 +307,7 @@ TEST_F(CampaignProgram, ReportsFailuresWithReplays) {
     EXPECT_THAT(page, HasSubstr(entry.path().filename().string()));
   }
   EXPECT_EQ(replays, 2);
+  EXPECT_THAT(text_of(folder_ / "charts" / "small_success1.svg"), HasSubstr("http://www.w3.org/2000/svg"));
   EXPECT_EQ(lines_of(folder_ / "whole" / "report.csv").size(), 1u + 8u);
   EXPECT_THAT(text_of(folder_ / "whole" / "report.md"), HasSubstr("# Two robots and a disc"));
 }

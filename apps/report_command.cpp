@@ -1,6 +1,7 @@
 // spf report: merges the results of campaigns and runs, and makes a page of them.
 #include <algorithm>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -29,7 +30,8 @@ struct ReportOptions {
   std::string json;
   bool csv = false;
   bool markdown = false;
-  int replays = 0;
+  std::string replays = "20";  ///< a number, or all
+  std::string charts;
   bool quiet = false;
 };
 
@@ -68,6 +70,7 @@ class Report {
     for (const CampaignParts& parts : campaigns_) {
       const ReplayLinks replays = write_replays(parts);
       const std::vector<PageSection> of_campaign = report_sections(parts, replays);
+      write_charts(parts);
       sections.insert(sections.end(), of_campaign.begin(), of_campaign.end());
       if (options_.markdown) markdown += report_markdown(parts);
       const std::vector<ResultRow> rows = rows_of(parts.cells);
@@ -113,6 +116,21 @@ class Report {
     return "<p class=\"muted\">" + escape_html(text) + "</p>";
   }
 
+  /// Every chart as a file of its own.
+  void write_charts(const CampaignParts& parts) const {
+    if (options_.charts.empty()) return;
+    const fs::path folder = options_.charts;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw OutputError{folder.string() + ": cannot be made: " + error.message()};
+    for (const StoredPicture& chart : report_pictures(parts))
+      write_file_atomically(folder / (parts.campaign.name + "_" + chart.name), chart.svg);
+  }
+
+  [[nodiscard]] int most_replays() const {
+    return options_.replays == "all" ? std::numeric_limits<int>::max() : std::stoi(options_.replays);
+  }
+
   /// Failed trials, in turn from every cell, run again and recorded.
   ReplayLinks write_replays(const CampaignParts& parts) {
     ReplayLinks links;
@@ -126,7 +144,7 @@ class Report {
     int written = 0;
     for (std::size_t turn = 0; turn < longest; ++turn)
       for (std::size_t i = 0; i < failed.size(); ++i) {
-        if (turn >= failed[i].size() || written >= options_.replays || interrupted()) continue;
+        if (turn >= failed[i].size() || written >= most_replays() || interrupted()) continue;
         const std::string address = write_replay(parts, i, *failed[i][turn]);
         if (address.empty()) continue;
         links[{i, failed[i][turn]->key.trial}] = address;
@@ -135,7 +153,15 @@ class Report {
     return links;
   }
 
+  /// The file's name holds the trial's digest: what an earlier report left there is this very trial.
   std::string write_replay(const CampaignParts& parts, std::size_t cell, const TrialRecord& record) {
+    const fs::path folder = page_.parent_path() / (page_.stem().string() + "_replays");
+    const std::string cell_name = cell_file_name(record.key);
+    const std::string name = parts.campaign.name + "_" + cell_name.substr(0, cell_name.rfind('.')) + "_" +
+                             std::to_string(record.key.trial) + "_" + record.digest.substr(0, 8) + ".html";
+    const std::string address = folder.filename().string() + "/" + name;
+    std::error_code error;
+    if (fs::exists(folder / name, error)) return address;
     progress_.show("replay of trial " + std::to_string(record.key.trial) + " of " + cell_text(record.key));
     const Study study = read_study(parts.scenarios[cell].string());
     SingleRequest request;
@@ -149,15 +175,10 @@ class Report {
       std::cerr << "warning: trial " << record.key.trial << " of " << cell_text(record.key)
                 << " went another way than in the results: they come from another version\n";
     trial.record.key = record.key;
-    const fs::path folder = page_.parent_path() / (page_.stem().string() + "_replays");
-    std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw OutputError{folder.string() + ": cannot be made: " + error.message()};
-    std::string name = cell_file_name(record.key);
-    name = parts.campaign.name + "_" + name.substr(0, name.rfind('.')) + "_" +
-           std::to_string(record.key.trial) + ".html";
     write_file_atomically(folder / name, render_replay(replay_data(study, trial)));
-    return folder.filename().string() + "/" + name;
+    return address;
   }
 
   const ReportOptions& options_;
@@ -198,15 +219,18 @@ Verb add_report(CLI::App& program) {
       ->type_name("FILE");
   app->add_option(
          "--replays", options->replays,
-         "run up to this many failed trials of each campaign again and link their replays (default 0)")
-      ->type_name("N")
-      ->check(CLI::Range(0, 10'000));
+         "run up to this many failed trials of each campaign again, in turn from its rows, and link their "
+         "replays; 0 = none (default 20)")
+      ->type_name("N|all")
+      ->check(CLI::Range(0, 1'000'000) | CLI::IsMember({"all"}));
+  app->add_option("--charts", options->charts, "folder for the charts as SVG files, one each")
+      ->type_name("DIR");
   app->add_flag("--quiet", options->quiet, "no progress on stderr");
   app->footer(
       "Examples:\n"
       "  spf report results/table2                            # then open results/table2/report.html\n"
       "  spf report results/table3/part* --out results/table3.html --csv --markdown\n"
-      "  spf report results/table2 --replays 20\n"
+      "  spf report results/table2 --replays all              # half a megabyte for every failed trial\n"
       "Exit status: 0 done, 2 bad usage or input, or a place that cannot be written, 130 interrupted.");
   return {app, [options](const std::vector<std::string>&) { return report(*options); }};
 }

@@ -7,6 +7,7 @@
 #include "experiments/failure_cause.hpp"
 #include "experiments/report_charts.hpp"
 #include "experiments/report_tables.hpp"
+#include "report/chart_svg.hpp"
 #include "report/html_text.hpp"
 #include "report/table.hpp"
 
@@ -130,8 +131,19 @@ PageTable failed_trials(const CampaignParts& parts, std::size_t cell, const Repl
   return table;
 }
 
+std::string replays_text(const CampaignParts& parts, const ReplayLinks& replays) {
+  std::size_t failed = 0;
+  for (const CellTrials& cell : parts.cells)
+    for (const TrialRecord& record : cell) failed += record.outcome != "success" ? 1 : 0;
+  std::string text = std::to_string(replays.size()) + " of " + std::to_string(failed) +
+                     " failed trials have their replay here";
+  if (replays.size() < failed) text += "; spf report --replays all adds the others";
+  return text + ". The command beside a trial makes its replay anew, too.";
+}
+
 std::string failures_section(const CampaignParts& parts, const ReplayLinks& replays) {
   std::string html = html_table(failure_table(parts));
+  html += paragraph(replays_text(parts, replays));
   html += paragraph(
       "Standing: slower than 0.05 m/s at the contact. Last plan: the outcome of the robot's last planning "
       "call before "
@@ -190,6 +202,19 @@ std::vector<PageSection> report_sections(const CampaignParts& parts, const Repla
       charts_html(shows(parts, CampaignFigure::runtime) ? part_charts(parts) : std::vector<std::string>{}) +
           charts_html(time_charts(parts)) + html_table(runtime_table(parts)));
   return sections;
+}
+
+std::vector<StoredPicture> report_pictures(const CampaignParts& parts) {
+  std::vector<StoredPicture> pictures;
+  const auto add = [&](const char* kind, const std::vector<std::string>& charts) {
+    for (std::size_t i = 0; i < charts.size(); ++i)
+      pictures.push_back({kind + std::to_string(i + 1) + ".svg", standalone(charts[i])});
+  };
+  add("success", success_charts(parts));
+  add("travel", travel_charts(parts));
+  if (shows(parts, CampaignFigure::runtime)) add("parts", part_charts(parts));
+  add("times", time_charts(parts));
+  return pictures;
 }
 
 std::string report_markdown(const CampaignParts& parts) {

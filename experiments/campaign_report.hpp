@@ -18,6 +18,9 @@ using ReplayLinks = std::map<std::pair<std::size_t, int>, std::string>;
 [[nodiscard]] std::vector<PageSection> report_sections(const CampaignParts& parts,
                                                        const ReplayLinks& replays);
 
+/// The charts of the report as files of their own; the names end in .svg.
+[[nodiscard]] std::vector<StoredPicture> report_pictures(const CampaignParts& parts);
+
 /// The tables of the report as Markdown.
 [[nodiscard]] std::string report_markdown(const CampaignParts& parts);
 

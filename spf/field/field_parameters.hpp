@@ -8,8 +8,8 @@ namespace spf {
 
 struct FieldParameters {
   double attention = 0.5;       ///< [1] weight of the present position, 1 = no shift (lambda of eq. 2)
-  double shift_interval = 1.0;  ///< [s] look-ahead of the centre (dt of eq. 2)
-  double stretch_time = 1.0;    ///< [s] travel folded into the long axis (t below eq. 3)
+  double shift_interval = 2.0;  ///< [s] look-ahead of the centre (dt of eq. 2)
+  double stretch_time = 2.0;    ///< [s] travel folded into the long axis (t below eq. 3)
   double threshold_scale =
       1.0;                  ///< [1] times the smallest ellipse that holds the disc now and after stretch_time
   bool directional = true;  ///< false: the speed counts as zero, a round field (ablation "without field")

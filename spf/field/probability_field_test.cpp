@@ -204,8 +204,8 @@ TEST(ProbabilityField, DefaultThresholdIsAsThePaperNotesSay) {
     obstacle.velocity_world = {speed, 0.0};
     return ProbabilityField{obstacle, radius / 2.0, FieldParameters{}}.threshold();
   };
-  EXPECT_NEAR(threshold(0.3, 1.0), 1.21, 0.005);  // ends of the range 1.05-1.21 for r 0.3-0.7 m at 0.3-1 m/s
-  EXPECT_NEAR(threshold(0.7, 0.3), 1.05, 0.005);
+  EXPECT_NEAR(threshold(0.3, 1.0), 1.27, 0.005);  // ends of the range 1.08-1.27 for r 0.3-0.7 m at 0.3-1 m/s
+  EXPECT_NEAR(threshold(0.7, 0.3), 1.08, 0.005);
 }
 
 TEST(ProbabilityField, IsRoundAtRestAndContinuousTowardsIt) {

@@ -152,6 +152,31 @@ double ClearanceModel::static_clearance(const Eigen::Vector2d& position_world, d
   return map_->distance(position_world) - robot_.radius - margin_scale * planner_.static_margin;
 }
 
+double ClearanceModel::field_clearance(const Eigen::Vector2d& position_world) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const DangerRegion& region : regions_)
+    least = std::min(least, region.field.clearance(position_world, region.threshold));
+  return least;
+}
+
+const DangerRegion* ClearanceModel::nearest_region(const Eigen::Vector2d& position_world) const {
+  const auto clearance = [&](const DangerRegion& region) {
+    return region.field.clearance(position_world, region.threshold);
+  };
+  const auto nearest = std::min_element(
+      regions_.begin(), regions_.end(),
+      [&](const DangerRegion& a, const DangerRegion& b) { return clearance(a) < clearance(b); });
+  return nearest == regions_.end() ? nullptr : &*nearest;
+}
+
+double ClearanceModel::time_in_fields(const Trajectory& trajectory, double from, double until) const {
+  constexpr double kStep = 0.05;  // [s]
+  if (regions_.empty()) return 0.0;
+  for (double time = until; time >= from; time -= kStep)
+    if (field_clearance(trajectory.position(time)) < 0.0) return std::min(until, time + kStep) - from;
+  return 0.0;
+}
+
 double ClearanceModel::moving_clearance(const Eigen::Vector2d& position_world, double time) const {
   double least = std::numeric_limits<double>::infinity();
   for (const MovingDisc& disc : discs_) {
@@ -159,9 +184,7 @@ double ClearanceModel::moving_clearance(const Eigen::Vector2d& position_world, d
     cursor.move_to(time);
     least = std::min(least, (position_world - cursor.position()).norm() - disc.radius - planner_.peer_margin);
   }
-  for (const DangerRegion& region : regions_)
-    least = std::min(least, region.field.clearance(position_world, region.threshold));
-  return least;
+  return std::min(least, field_clearance(position_world));
 }
 
 ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const ClearanceWindow& window) const {
@@ -194,6 +217,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
         report);
   }
   // To be in the field is no contact yet.
+  if (!window.fields) return report;
   for (const DangerRegion& region : regions_)
     check_encounter(
         trajectory, window, {ConflictKind::obstacle, region.id, speed, window.moving_until},

@@ -50,6 +50,7 @@ struct ClearanceWindow {
   double margin_scale = 1.0;  ///< [1] of the margins; a committed plan is checked with less than a new one
   const Trajectory* alternative = nullptr;  ///< what the robot would do otherwise (brake): being as near to
                                             ///< things as that, yet without contact, is no conflict
+  bool fields = true;                       ///< false: danger regions do not count
 };
 
 class ClearanceModel {
@@ -74,6 +75,13 @@ class ClearanceModel {
   /// Distance to static surfaces beyond radius and margin [m].
   [[nodiscard]] double static_clearance(const Eigen::Vector2d& position_world,
                                         double margin_scale = 1.0) const;
+  /// Smallest clearance from the danger regions [m]; infinite without any.
+  [[nodiscard]] double field_clearance(const Eigen::Vector2d& position_world) const;
+  /// The danger region that a place lies deepest in, or is nearest to; null without any.
+  [[nodiscard]] const DangerRegion* nearest_region(const Eigen::Vector2d& position_world) const;
+  /// Time until the trajectory is out of every danger region for good [s]: 0 when it never is in one,
+  /// until - from when it is in one to the end.
+  [[nodiscard]] double time_in_fields(const Trajectory& trajectory, double from, double until) const;
   /// Smallest clearance from everything that moves, at one place and time [m].
   [[nodiscard]] double moving_clearance(const Eigen::Vector2d& position_world, double time) const;
 

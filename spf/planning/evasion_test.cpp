@@ -35,8 +35,8 @@ struct Scene {
     track.state = {position, velocity, 0.4};
     tracks.push_back(track);
   }
-  [[nodiscard]] Evasion evade() const {
-    ClearanceModel model{planner_parameters(), robot, FieldParameters{}};
+  [[nodiscard]] Evasion evade(const PlannerParameters& planner = planner_parameters()) const {
+    ClearanceModel model{planner, robot, FieldParameters{}};
     model.prepare({kTime, 1, &map, &tracks, &peers}, kTime, PeerSelection::all);
     return best_evasion(head, {}, kTime, kTime + kHorizon, model, robot);
   }
@@ -146,6 +146,58 @@ TEST(Evasion, WithoutAWayOutTakesTheLatestConflict) {
   EXPECT_GT(evasion.report.time, braking_time);
   EXPECT_TRUE(evasion.sidestep);
   EXPECT_GT(evasion.trajectory.tail_position().x(), 0.0);
+}
+
+/// Ten evasions a second of a robot that stands before an obstacle, inside its field.
+double least_gap_of_evasions(const Eigen::Vector2d& obstacle_from, const Eigen::Vector2d& velocity,
+                             const std::vector<Eigen::Vector2d>& wall) {
+  Scene scene;
+  if (!wall.empty()) scene.map.add_box(wall[0], wall[1]);
+  scene.add(obstacle_from, velocity);
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < 40; ++step) {
+    const Evasion evasion = scene.evade(PlannerParameters{});
+    for (int k = 0; k < 10; ++k) {
+      const Eigen::Vector2d place = evasion.trajectory.position(kTime + 0.01 * k);
+      const Eigen::Vector2d centre = scene.tracks[0].state.position_world + 0.01 * k * velocity;
+      least = std::min(least, (place - centre).norm() - 0.7);
+    }
+    scene.head = evasion.trajectory.state(kTime + 0.1);
+    scene.tracks[0].state.position_world += 0.1 * velocity;
+  }
+  return least;
+}
+
+/// In the field nothing is clear, and the obstacle does not wait: standing there is to be run over.
+TEST(Evasion, LeavesTheFieldOfAnObstacleThatComes) {
+  for (int i = 0; i < 24; ++i) {
+    SCOPED_TRACE(i);
+    const double angle = 2.0 * kPi * i / 24;
+    const Eigen::Vector2d from{std::cos(angle), std::sin(angle)};
+    const Eigen::Vector2d beside{-from.y(), from.x()};
+    const Eigen::Vector2d start = 1.6 * from + (0.1 + 0.02 * i) * beside;
+    ASSERT_LT((start - 0.6 * from).norm(), 1.3);  // the robot lies in the field
+    EXPECT_GT(least_gap_of_evasions(start, -0.6 * from, {}), 0.0);
+  }
+}
+
+TEST(Evasion, LeavesTheFieldOnTheOtherSideOfAWall) {
+  // 0.1 m of room above the robot, which is the nearer way out of the field.
+  EXPECT_GT(least_gap_of_evasions({1.5, -0.1}, {-0.4, 0.0}, {{-9.0, 0.4}, {9.0, 2.0}}), 0.0);
+}
+
+TEST(Evasion, TellsHowLongItStaysInTheField) {
+  Scene scene;
+  scene.add({5.0, 0.0}, {-0.5, 0.0});
+  EXPECT_EQ(scene.evade(PlannerParameters{}).time_in_fields, 0.0);
+  scene.tracks[0].state.position_world = {0.3, 0.6};  // half in: out within the second that it takes
+  scene.tracks[0].state.velocity_world.setZero();
+  const Evasion evasion = scene.evade(PlannerParameters{});
+  EXPECT_TRUE(evasion.sidestep);
+  EXPECT_GT(evasion.time_in_fields, 0.1);
+  EXPECT_LT(evasion.time_in_fields, 1.0);
+  const Eigen::Vector2d out = evasion.trajectory.position(kTime + evasion.time_in_fields);
+  EXPECT_GE((out - Eigen::Vector2d{0.3, 0.6}).norm(), 0.7);
 }
 
 }  // namespace

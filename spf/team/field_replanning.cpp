@@ -10,6 +10,7 @@ namespace {
 constexpr double kCommittedMargin =
     0.5;  // [1] of the margins: a plan is not dropped for what it was accepted with
 constexpr double kEvasionHorizon = 3.0;  // [s]
+constexpr double kLinger = 0.5;          // [s] longer in a field than the quickest way out, at most
 constexpr double kTimeTolerance = 1e-9;  // [s]
 
 }  // namespace
@@ -40,7 +41,22 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
   // matter.
   const bool yields = threat.report.kind == ConflictKind::peer && threat.report.id > request.world.robot_id;
   if (yields && !threat.urgent) threat.conflict = false;
+  // The obstacle may be here soon: a trajectory has to leave, and about as soon as can be.
+  if (in_fields_) {
+    const double stay = check_.time_in_fields(trajectory, request.time, request.time + kEvasionHorizon);
+    threat.in_field = stay > way_out_.time_in_fields + kLinger;
+    threat.conflict = threat.conflict || threat.in_field;
+    threat.urgent = threat.urgent || threat.in_field;
+  }
   return threat;
+}
+
+/// A robot in a danger region has to know how soon it could be out.
+void FieldReplanning::look_for_way_out(const PlanRequest& request) {
+  in_fields_ = team_.retreat && check_.field_clearance(request.head.position_world) < 0.0;
+  if (!in_fields_) return;
+  way_out_ = best_evasion(request.head, request.heading, request.time, request.time + kEvasionHorizon, check_,
+                          robot_);
 }
 
 bool FieldReplanning::plan_due(const PlanRequest& request, const Threat& threat, bool braking) const {
@@ -54,6 +70,7 @@ ReplanDecision FieldReplanning::decide(const PlanRequest& request, const GuidePa
                                        PlanResult& result) {
   // 1. What lies ahead on the committed trajectory, up to its end and against everybody.
   check_.prepare(request.world, request.time, PeerSelection::all);
+  look_for_way_out(request);
   Threat threat;
   if (request.committed != nullptr) threat = threat_to(*request.committed, request);
   if (!plan_due(request, threat, braking)) {
@@ -105,8 +122,9 @@ ReplanDecision FieldReplanning::fail(const PlanRequest& request, const Threat& t
   if (result.outcome == PlanOutcome::success) result.outcome = PlanOutcome::unsafe;
   if (threat.report.kind == ConflictKind::obstacle) result.blocking_track = threat.report.id;
   if (threat.report.kind == ConflictKind::peer) result.blocking_peer = threat.report.id;
-  const Evasion evasion = best_evasion(request.head, request.heading, request.time,
-                                       request.time + kEvasionHorizon, check_, robot_);
+  const Evasion evasion = in_fields_ ? way_out_
+                                     : best_evasion(request.head, request.heading, request.time,
+                                                    request.time + kEvasionHorizon, check_, robot_);
   if (evasion.sidestep && team_.retreat) {
     result.trajectory = evasion.trajectory;
     return ReplanDecision::brake;

@@ -29,10 +29,12 @@ class FieldReplanning {
   /// What the committed trajectory is in for.
   struct Threat {
     bool conflict = false;
-    bool urgent = false;  ///< sooner than it takes to stop, and the emergency time
+    bool urgent = false;    ///< sooner than it takes to stop, and the emergency time
+    bool in_field = false;  ///< stays in a danger region longer than the quickest way out
     ClearanceReport report;
   };
   [[nodiscard]] Threat threat_to(const Trajectory& trajectory, const PlanRequest& request) const;
+  void look_for_way_out(const PlanRequest& request);
   [[nodiscard]] bool plan_due(const PlanRequest& request, const Threat& threat, bool braking) const;
   /// Names the first moving thing on the guide's way when the planner ended without a name.
   void name_blocker(const PlanRequest& request, const GuidePath& guide, PlanResult& result) const;
@@ -40,7 +42,9 @@ class FieldReplanning {
 
   RobotParameters robot_;
   TeamParameters team_;
-  double horizon_;  // [m] of the planner
+  double horizon_;          // [m] of the planner
+  Evasion way_out_;         // of the fields that hold the robot; of this check
+  bool in_fields_ = false;  // they do
   FieldPlanner planner_;
   ClearanceModel check_;          // against all peers
   double last_plan_time_ = -1e9;  // [s] of the last success
