@@ -20,7 +20,7 @@ ros_pids=()
 ros_start() {
   local log=$1
   shift
-  setsid "$@" >"$log" 2>&1 </dev/null &
+  setsid env --default-signal=INT "$@" >"$log" 2>&1 </dev/null & # bash would have them ignore it
   ros_pid=$!
   ros_pids+=("$ros_pid")
 }
@@ -47,10 +47,12 @@ ros_stop() {
   done
 }
 
-# Ends everything that ros_start began, the last first, and what that left behind.
+# Ends everything that ros_start began, and what that left behind.
 ros_end() {
-  local i pid
-  for ((i = ${#ros_pids[@]} - 1; i >= 0; --i)); do ros_stop "${ros_pids[i]}"; done
+  local pid
+  ((${#ros_pids[@]})) || return 0
+  for pid in "${ros_pids[@]}"; do kill -INT "$pid" 2>/dev/null || true; done
+  for pid in "${ros_pids[@]}"; do ros_stop "$pid"; done
   for pid in $(ros_processes); do kill -KILL "$pid" 2>/dev/null || true; done
   wait 2>/dev/null || true
   ros_pids=()
