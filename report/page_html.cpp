@@ -1,5 +1,6 @@
 #include "report/page_html.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include "report/html_text.hpp"
@@ -65,13 +66,17 @@ button.addEventListener("click", () => {
 });
 )js";
 
+/// Sentences, which read from the left.
+bool is_words(const PageCell& cell) {
+  return !cell.header && cell.text.size() + cell.html.size() > 40;
+}
+
 std::string cell_html(const PageCell& cell) {
   std::string inner = cell.html + escape_html(cell.text);
   if (cell.strong) inner = "<b>" + inner + "</b>";
   if (!cell.sub.empty()) inner += "<span class=\"sub\">" + escape_html(cell.sub) + "</span>";
   if (cell.header) return "<th scope=\"row\">" + inner + "</th>";
-  const bool words = cell.text.size() + cell.html.size() > 40;
-  return (words ? "<td class=\"words\">" : "<td>") + inner + "</td>";
+  return (is_words(cell) ? "<td class=\"words\">" : "<td>") + inner + "</td>";
 }
 
 }  // namespace
@@ -81,8 +86,12 @@ std::string html_table(const PageTable& table) {
                      escape_html(table.caption.empty() ? "table" : table.caption) + "\"><table>";
   if (!table.caption.empty()) html += "<caption>" + escape_html(table.caption) + "</caption>";
   html += "<thead><tr>";
-  for (const std::string& header : table.headers)
-    html += "<th scope=\"col\">" + escape_html(header) + "</th>";
+  for (std::size_t i = 0; i < table.headers.size(); ++i) {
+    const bool left = std::any_of(table.rows.begin(), table.rows.end(),
+                                  [i](const auto& row) { return i < row.size() && is_words(row[i]); });
+    html += (left ? "<th scope=\"col\" class=\"left\">" : "<th scope=\"col\">") +
+            escape_html(table.headers[i]) + "</th>";
+  }
   html += "</tr></thead>\n<tbody>";
   for (const std::vector<PageCell>& row : table.rows) {
     html += "<tr>";
