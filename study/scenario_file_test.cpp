@@ -59,6 +59,28 @@ TEST(ScenarioFile, SizesAFamily) {
   EXPECT_EQ(make_trial(study, 0).robots.size(), 20u);
 }
 
+TEST(ScenarioFile, DefaultsFollowTheRobotOfTheFileAndSetValuesDoNot) {
+  const Study standard = study_from_text("family: t2\n", "standard.yaml");
+  const Study small = study_from_text(
+      "family: t2\nrobot: {radius: 0.15, max_speed: 0.5, max_acceleration: 0.5}\n"
+      "agent: {space_time: {peer_margin: 0.05}}\n",
+      "small.yaml");
+  const SpaceTimeParameters& large = standard.agent.space_time;
+  EXPECT_EQ(large.margin, SpaceTimeParameters{}.margin);
+  EXPECT_DOUBLE_EQ(small.agent.space_time.margin, 0.5 * large.margin);
+  EXPECT_DOUBLE_EQ(small.agent.space_time.horizon, large.horizon);  // it stops in the same time
+  EXPECT_EQ(small.agent.space_time.peer_margin, 0.05);              // as written
+  EXPECT_DOUBLE_EQ(small.simulation.sensing.map_resolution, 0.5 * standard.simulation.sensing.map_resolution);
+}
+
+TEST(ScenarioFile, AFamilyOfSmallRobotsHasTheirDefaults) {
+  const Study platform = study_from_text("family: p8\n", "p8.yaml");
+  EXPECT_DOUBLE_EQ(platform.agent.space_time.margin, SpaceTimeParameters{}.margin / 6.0);
+  EXPECT_EQ(platform.simulation.sensing.map_resolution, 0.02);  // as the family says
+  const Study again = study_from_text(to_yaml_text(platform), "again.yaml");
+  EXPECT_EQ(to_yaml_text(again), to_yaml_text(platform));
+}
+
 TEST(ScenarioFile, MethodSetsAgentParametersAndTheFileOverridesThem) {
   const AgentParameters defaults;
   const Study study = study_from_text(

@@ -96,6 +96,7 @@ ClearanceModel::ClearanceModel(const PlannerParameters& planner, const RobotPara
 void ClearanceModel::prepare(const WorldSnapshot& world, double time, PeerSelection selection) {
   assert(world.map != nullptr);
   map_ = world.map;
+  static_margin_ = std::max(planner_.static_margin, map_->surface_error());
   discs_.clear();
   regions_.clear();
   if (world.peers != nullptr) {
@@ -149,7 +150,7 @@ void ClearanceModel::add_track(const ObstacleTrack& track, double time) {
 }
 
 double ClearanceModel::static_clearance(const Eigen::Vector2d& position_world, double margin_scale) const {
-  return map_->distance(position_world) - robot_.radius - margin_scale * planner_.static_margin;
+  return map_->distance(position_world) - robot_.radius - margin_scale * static_margin_;
 }
 
 double ClearanceModel::field_clearance(const Eigen::Vector2d& position_world) const {
@@ -196,7 +197,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
   constexpr double kInterpolationSteepness = 1.1;
   // No alternative justifies contact, which is what the whole margin lost means.
   constexpr double kLosable = 0.9;
-  const double static_margin = window.margin_scale * planner_.static_margin;
+  const double static_margin = window.margin_scale * static_margin_;
   check_encounter(
       trajectory, window,
       {ConflictKind::static_map, -1, kInterpolationSteepness * speed, window.static_until},

@@ -88,6 +88,8 @@ class ClearanceModel {
   [[nodiscard]] const std::vector<MovingDisc>& discs() const { return discs_; }
   [[nodiscard]] const std::vector<DangerRegion>& regions() const { return regions_; }
   [[nodiscard]] const OccupancyMap& map() const { return *map_; }
+  /// Kept from static surfaces beyond the radius [m]: as set, or the map's error where that is larger.
+  [[nodiscard]] double static_margin() const { return static_margin_; }
   [[nodiscard]] double robot_radius() const { return robot_.radius; }  ///< [m]
 
   static constexpr double kShortestStep = 0.02;  ///< [s]
@@ -100,6 +102,7 @@ class ClearanceModel {
   RobotParameters robot_;
   FieldParameters field_;
   const OccupancyMap* map_ = nullptr;
+  double static_margin_ = 0.0;  // [m]
   std::vector<MovingDisc> discs_;
   std::vector<DangerRegion> regions_;
 };

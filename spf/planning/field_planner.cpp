@@ -160,7 +160,7 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
 
   // Static obstacles in the way of the seed, and obstacles whose field it enters.
   seed_pairs_.clear();
-  StaticSearch search{search_, clearance_.map(), robot_.radius + planner_.static_margin};
+  StaticSearch search{search_, clearance_.map(), robot_.radius + clearance_.static_margin()};
   if (finder_.find(clearance_, nodes, PathSearchRef{search}, seed_pairs_) ==
       GuidePairFinder::Outcome::blocked) {
     last_report_.kind = ConflictKind::static_map;
@@ -225,7 +225,7 @@ bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kin
 /// then added.
 OptimizerResult FieldPlanner::launch(bool may_rebound, bool& rebound, PlanResult& result) {
   int evaluations = 0;
-  StaticSearch search{search_, clearance_.map(), robot_.radius + planner_.static_margin};
+  StaticSearch search{search_, clearance_.map(), robot_.radius + clearance_.static_margin()};
   const auto watch = [&](const NodeSet& nodes) {
     if (!may_rebound || ++evaluations < kEarliestRebound) return LbfgsSignal::proceed;
     if (!GuidePairFinder::new_collision(clearance_, nodes, static_pairs_)) return LbfgsSignal::proceed;
@@ -262,7 +262,7 @@ bool FieldPlanner::answer(const PlanRequest& request) {
       problem_.static_factor *= kHarder;
       if (static_pairs_.size() + static_cast<std::size_t>(optimizer_.nodes().size()) > kPairCapacity)
         return true;
-      StaticSearch search{search_, clearance_.map(), robot_.radius + planner_.static_margin};
+      StaticSearch search{search_, clearance_.map(), robot_.radius + clearance_.static_margin()};
       return finder_.find(clearance_, optimizer_.nodes(), PathSearchRef{search}, static_pairs_) !=
              GuidePairFinder::Outcome::blocked;
     }

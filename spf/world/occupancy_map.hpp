@@ -83,6 +83,9 @@ class OccupancyMap {
 
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
   [[nodiscard]] double max_distance() const { return max_distance_; }
+  /// How much nearer than distance() a surface may be [m]: half a cell once anything was sensed, since a cell
+  /// keeps one hit point of a surface that runs through all of it; 0 where all shapes are known.
+  [[nodiscard]] double surface_error() const { return sensed_ ? 0.5 * frame_.resolution : 0.0; }
   /// Grows whenever any distance changes: cached paths compare it.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
   /// Hit points of the sensed occupied cells: for display.

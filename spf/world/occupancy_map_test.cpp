@@ -282,5 +282,17 @@ TEST(OccupancyMap, SegmentsFindTheirSmallestDistance) {
   }
 }
 
+TEST(OccupancyMap, KnowsSurfacesExactlyUntilItSensesThem) {
+  OccupancyMap map{GridFrame::covering({-2.0, -2.0}, {2.0, 2.0}, 0.1), 1.0};
+  map.add_box({1.0, -1.0}, {1.5, 1.0});
+  EXPECT_EQ(map.surface_error(), 0.0);
+  RangeScan scan;
+  scan.angle_min = 0.0;
+  scan.angle_increment = 0.1;
+  scan.ranges = {0.8, 0.8};
+  map.integrate(scan, Pose2{{-1.5, 0.0}, 0.0}, {});
+  EXPECT_DOUBLE_EQ(map.surface_error(), 0.05);
+}
+
 }  // namespace
 }  // namespace spf
