@@ -211,7 +211,7 @@ void Study::visit_fields(Self& self, Visitor&& visit) {
           "crowd", self.crowd,
           "recorded people: a CSV file (t_s, agent_id, x_m, y_m), beside the scenario file, or with --set in "
           "the working directory (family: ped)");
-    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, kLayoutElsewhere};
+    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
     visit.group("layout", layout);
   }
   visit.group("robot", self.robot);
