@@ -17,7 +17,7 @@ run(${CMAKE_COMMAND} --install ${BUILD_DIR} --config "${CONFIG}" --component dev
 run(catkin_make_isolated --source ${ROS_DIR} --build ${work}/build --devel ${work}/devel
   --cmake-args -DCMAKE_PREFIX_PATH=${work}/prefix -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
   -DCMAKE_BUILD_TYPE=Release)
-foreach(node planner_node tracker_node perception_node robot_node)
+foreach(node planner_node tracker_node perception_node robot_node simulator_node)
   if(NOT EXISTS ${work}/devel/spf_empc_ros/lib/spf_empc_ros/${node})
     message(FATAL_ERROR "${node} was not built")
   endif()
