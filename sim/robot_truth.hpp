@@ -13,6 +13,9 @@ struct RobotTruth {
   bool arrived = false;                                      ///< has been at its goal once
   bool wrecked = false;                                      ///< stands after a contact (AfterContact::wreck)
   bool gone = false;                                         ///< has left the place (AfterArrival::leave)
+
+  /// Senses, drives and is there.
+  [[nodiscard]] bool active() const { return !wrecked && !gone; }
 };
 
 }  // namespace spf::sim

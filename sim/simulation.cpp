@@ -100,7 +100,7 @@ void Simulation::Implementation::hear() {
 
 void Simulation::Implementation::observe() {
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    if (world.robots()[i].wrecked || world.robots()[i].gone) continue;
+    if (!world.robots()[i].active()) continue;
     const int robot = static_cast<int>(i);
     pose_inputs[i].poses.clear();
     pose_inputs[i].poses.push_back(world.measure_pose(robot));
@@ -113,7 +113,7 @@ void Simulation::Implementation::observe() {
 
 void Simulation::Implementation::think() {
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    if (!world.robots()[i].wrecked && !world.robots()[i].gone) think(i);
+    if (world.robots()[i].active()) think(i);
     world_inputs[i].messages.clear();
   }
 }
@@ -186,7 +186,7 @@ void Simulation::Implementation::end() {
 void Simulation::Implementation::place_ideally() {
   const double to = world.next_time();
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    if (world.robots()[i].wrecked || world.robots()[i].gone) continue;
+    if (!world.robots()[i].active()) continue;
     const Trajectory& plan = agents[i].committed();
     const FlatState state = plan.state(to);
     world.place(static_cast<int>(i), {state.position_world, plan.heading().state(to).heading},

@@ -85,7 +85,7 @@ void World::move() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     RobotTruth& truth = robots_[i];
     truth.motion.from = truth.pose.position_world;
-    if (truth.wrecked || truth.gone) {
+    if (!truth.active()) {
       truth.velocity_world.setZero();
     } else if (ideal) {
       truth.pose = placements_[i].pose_world;

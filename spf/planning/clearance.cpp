@@ -96,7 +96,7 @@ ClearanceModel::ClearanceModel(const PlannerParameters& planner, const RobotPara
 void ClearanceModel::prepare(const WorldSnapshot& world, double time, PeerSelection selection) {
   assert(world.map != nullptr);
   map_ = world.map;
-  static_margin_ = std::max(planner_.static_margin, map_->surface_error());
+  static_margin_ = map_->margin(planner_.static_margin);
   discs_.clear();
   regions_.clear();
   if (world.peers != nullptr) {

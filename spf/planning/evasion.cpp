@@ -96,7 +96,8 @@ struct Judge {
 Evasion best_evasion(const FlatState& head, const HeadingState& heading, double time, double until,
                      const ClearanceModel& model, const RobotParameters& robot) {
   const DangerRegion* region = model.nearest_region(head.position_world);
-  const bool in_fields = region != nullptr && model.field_clearance(head.position_world) < 0.0;
+  const bool in_fields =
+      region != nullptr && region->field.clearance(head.position_world, region->threshold) < 0.0;
   const Judge judge{model,     time,
                     until,     robot.radius,
                     in_fields, in_fields ? region->field.axis_world() : Eigen::Vector2d::Zero()};

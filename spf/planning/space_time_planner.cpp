@@ -50,7 +50,7 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   // be there, and a risk that fades would be put off for ever.
   const OccupancyMap& map = *request.world.map;
   const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
-  const double wanted_clearance = robot_.radius + std::max(parameters_.static_margin, map.surface_error());
+  const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
   double least = std::numeric_limits<double>::infinity();
   for (int k = 1; k <= roll_out.steps; ++k) {
     least = std::min(least, map.distance(roll_out.position_world[static_cast<std::size_t>(k)]));

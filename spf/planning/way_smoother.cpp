@@ -52,8 +52,7 @@ bool WaySmoother::smooth(const RollOut& roll_out, const PlanRequest& request, co
   cost_.map = request.world.map;
   cost_.start_time = request.time;
   cost_.price = planner_.weights.time * space_time_.risk_price;
-  cost_.wanted_clearance =
-      robot_.radius + std::max(space_time_.static_margin, request.world.map->surface_error());
+  cost_.wanted_clearance = robot_.radius + request.world.map->margin(space_time_.static_margin);
   cost_.static_sigma = std::hypot(space_time_.static_sigma, request.position_sigma);
   problem_.extra = NodeTermRef{cost_};
 
