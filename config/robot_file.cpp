@@ -7,8 +7,22 @@
 namespace spf {
 namespace {
 
-/// What a robot's file starts from: many defaults follow the robot (ScaledUnit).
-RobotFile defaults_of(Method method, const RobotParameters& robot) {
+RobotFile read_document(const YamlNode& root, InputProblems problems) {
+  if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
+  Method method = RobotFile{}.method;
+  RobotParameters robot;
+  InputProblems ignored;  // the whole is read again below
+  if (const YamlNode* node = root.find("method")) read_choice({*node, "method", ignored}, method);
+  if (const YamlNode* node = root.find("robot")) read_parameters(*node, robot, ignored);
+  RobotFile file = default_robot_file(method, robot);
+  read_parameters(root, file, problems);
+  problems.throw_if_any();
+  return file;
+}
+
+}  // namespace
+
+RobotFile default_robot_file(Method method, const RobotParameters& robot) {
   RobotFile file;
   file.method = method;
   file.robot = robot;
@@ -17,23 +31,8 @@ RobotFile defaults_of(Method method, const RobotParameters& robot) {
   return file;
 }
 
-RobotFile read_document(const YamlNode& root, InputProblems problems) {
-  if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
-  Method method = RobotFile{}.method;
-  RobotParameters robot;
-  InputProblems ignored;  // the whole is read again below
-  if (const YamlNode* node = root.find("method")) read_choice({*node, "method", ignored}, method);
-  if (const YamlNode* node = root.find("robot")) read_parameters(*node, robot, ignored);
-  RobotFile file = defaults_of(method, robot);
-  read_parameters(root, file, problems);
-  problems.throw_if_any();
-  return file;
-}
-
-}  // namespace
-
 RobotFile read_robot_file(const std::string& path) {
-  if (path.empty()) return defaults_of(RobotFile{}.method, {});
+  if (path.empty()) return default_robot_file(RobotFile{}.method, {});
   InputProblems problems;
   const YamlNode root = read_yaml_file(path, problems);
   return read_document(root, std::move(problems));

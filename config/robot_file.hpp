@@ -29,6 +29,9 @@ struct RobotFile {
   }
 };
 
+/// What a file that says no more than this starts from: many defaults follow the robot (ScaledUnit).
+[[nodiscard]] RobotFile default_robot_file(Method method, const RobotParameters& robot);
+
 /// Throws InputError with every problem. An empty path gives the defaults.
 [[nodiscard]] RobotFile read_robot_file(const std::string& path);
 /// The same from text; `name` stands for the file in messages.

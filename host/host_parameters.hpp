@@ -20,6 +20,8 @@ struct HostParameters {
   double largest_peer_sigma = 1.0;   ///< [m] likewise of those who do not know where they are
   double largest_peer_speed = 10.0;  ///< [m/s] likewise of faster ones
   double grid_size = 40.0;           ///< [m] side of the sensed map, around the start, where no map is given
+  double map_resolution = 0.1;       ///< [m] node distance of the map, given or sensed
+  double map_reach = 2.0;            ///< [m] up to which its distances are exact
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -39,14 +41,18 @@ struct HostParameters {
           "stamps may be ahead of the clock by so much");
     visit("clock_jump", self.clock_jump, "s", Range{0.1, 60.0},
           "a longer step of the clock, or one backwards, is a jump");
-    visit("largest_peer_radius", self.largest_peer_radius, kMetresBySize, Range{0.01, 100.0},
+    visit("largest_peer_radius", self.largest_peer_radius, "m", Range{0.01, 100.0},
           "messages of larger peers are malformed");
     visit("largest_peer_sigma", self.largest_peer_sigma, "m", Range{0.0, 100.0},
           "messages of peers that are less sure of their place are malformed");
-    visit("largest_peer_speed", self.largest_peer_speed, kSpeedByRobot, Range{0.1, 100.0},
+    visit("largest_peer_speed", self.largest_peer_speed, "m/s", Range{0.1, 100.0},
           "messages of faster peers are malformed");
     visit("grid_size", self.grid_size, kMetresByWay, Range{1.0, 1000.0},
           "side of the sensed map, around the start, where no map is given");
+    visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
+          "node distance of the map; a given one with coarser cells keeps those");
+    visit("map_reach", self.map_reach, kMetresBySize, Range{0.01, 100.0},
+          "distances to static surfaces are exact up to here");
   }
 };
 

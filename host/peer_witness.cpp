@@ -11,7 +11,7 @@ namespace {
 constexpr double kSilence = 2.0;      // [s] after which a peer is a new one
 constexpr double kProbation = 1.0;    // [s] for which a new peer explains nothing
 constexpr double kMemory = 1.0;       // [s] time constant of its jumps
-constexpr double kMostJumps = 0.3;    // [m] honest plans join; braking that is heard late differs by less
+constexpr double kMostJumps = 1.0;    // [radii] honest plans join; braking that is heard late differs by less
 constexpr double kDoubt = 2.0;        // [s] for which a peer that was not there is not believed
 constexpr double kMiddle = 0.3;       // [1] of its radius: errors of poses and clocks stay below
 constexpr std::size_t kMost = 10000;  // peers
@@ -27,7 +27,8 @@ void PeerWitness::hear(const TrajectoryMessage& message, double now) {
     record.first_heard = now;
     record.jumps = 0.0;
   } else {
-    const double jump = (message.trajectory.position(now) - record.said.position(now)).norm();
+    const double jump =
+        (message.trajectory.position(now) - record.said.position(now)).norm() / message.radius;
     record.jumps = jump + record.jumps * std::exp(-(now - record.last_heard) / kMemory);
   }
   record.last_heard = now;

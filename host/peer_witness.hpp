@@ -28,7 +28,7 @@ class PeerWitness {
   struct Record {
     double first_heard = 0.0;     // [s]
     double last_heard = 0.0;      // [s]
-    double jumps = 0.0;           // [m] from what it said before, fading
+    double jumps = 0.0;           // [radii] from what it said before, fading
     double contradicted = -1e18;  // [s] when it was last not where it said
     Trajectory said;
   };

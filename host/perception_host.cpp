@@ -4,12 +4,13 @@
 #include <limits>
 
 #include "host/scan_check.hpp"
+#include "host/sensed_map.hpp"
 
 namespace spf::host {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-constexpr double kExplained = 0.15;  // [m] beyond a tracked disc, within which returns are its own
+constexpr double kExplained = 0.5;  // [radii of the robot] beyond a tracked disc: returns there are its own
 
 }  // namespace
 
@@ -62,17 +63,11 @@ std::optional<SensedWorld> PerceptionHost::add_scan(double time, const RangeScan
   sensed.observation.scan = seen_from_centre(scan, sensor_in_body);
   if (gate_.last()) {
     const Pose2& here = gate_.last()->pose_world;
-    if (!map_) {
-      constexpr double kResolution = 0.1;  // [m]
-      constexpr double kReach = 2.0;       // [m]
-      const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * host_.grid_size);
-      map_.emplace(GridFrame::covering(here.position_world - half, here.position_world + half, kResolution),
-                   kReach, agent_.occupancy);
-    }
+    if (!map_) map_ = sensed_map(here.position_world, host_, agent_.occupancy);
     std::vector<IgnoredDisc> explained;
     for (const ObstacleTrack& track : tracker_.tracks())
       explained.push_back({track.state.position_world + (time - track.time) * track.state.velocity_world,
-                           track.state.radius + kExplained});
+                           track.state.radius + kExplained * agent_.robot.radius});
     map_->integrate(*sensed.observation.scan, here, explained);
   }
   return sensed;

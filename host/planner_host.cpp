@@ -7,16 +7,15 @@
 
 #include "host/plan_check.hpp"
 #include "host/scan_check.hpp"
+#include "host/sensed_map.hpp"
 
 namespace spf::host {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kLookBack = 0.3;       // [s] of poses by which a robot is seen to stand
-constexpr double kStandingSpeed = 0.1;  // [m/s]
+constexpr double kStandingSpeed = 0.1;  // [1] of max_speed
 constexpr double kSpare = 1.0;          // [s] beyond braking, after which it is taken to stand
-constexpr double kMapResolution = 0.1;  // [m] of a map that is only sensed
-constexpr double kMapReach = 2.0;       // [m] of its distances
 
 Eigen::Vector2d mean_position(const std::vector<PoseMeasurement>& poses, std::size_t from, std::size_t to) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -197,7 +196,7 @@ bool PlannerHost::stands(double now) const {
   if (span < 0.9 * kLookBack || count < 4) return false;
   const Eigen::Vector2d moved =
       mean_position(recent_poses_, count / 2, count) - mean_position(recent_poses_, 0, count / 2);
-  return moved.norm() < kStandingSpeed * 0.5 * span;
+  return moved.norm() < kStandingSpeed * robot.max_speed * 0.5 * span;
 }
 
 void PlannerHost::start_when_ready(double now) {
@@ -205,11 +204,7 @@ void PlannerHost::start_when_ready(double now) {
                      gate_.age(now) <= agent_parameters_.team.stale_time && stands(now);
   if (!ready) return;
   const Pose2 here = recent_poses_.back().pose_world;
-  if (!map_) {
-    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * host_.grid_size);
-    map_.emplace(GridFrame::covering(here.position_world - half, here.position_world + half, kMapResolution),
-                 kMapReach, agent_parameters_.occupancy);
-  }
+  if (!map_) map_ = sensed_map(here.position_world, host_, agent_parameters_.occupancy);
   agent_.emplace(robot_id_, agent_parameters_, *map_, here, now);
   if (goal_) agent_->set_goal(goal_->position_world, goal_->heading);
   input_.poses.push_back(recent_poses_.back());

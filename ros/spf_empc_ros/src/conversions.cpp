@@ -324,10 +324,9 @@ Converted<spf::host::SensedWorld> from_message(const spf_empc_msgs::Observation&
 // ---- maps -------------------------------------------------------------------------------------------------
 
 Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid, const std::string& frame,
-                                          const spf::OccupancyParameters& parameters) {
+                                          const spf::host::HostParameters& host,
+                                          const spf::OccupancyParameters& occupancy) {
   using Result = Converted<spf::OccupancyMap>;
-  constexpr double kFinest = 0.1;  // [m] of our own nodes; shapes between them keep their exact distance
-  constexpr double kReach = 2.0;   // [m] of distances
   constexpr double kMostCells = 1 << 26;
   constexpr int kOccupied = 50;
   std::string refusal;
@@ -348,9 +347,10 @@ Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid, c
   const Eigen::Vector2d high =
       low + cell * Eigen::Vector2d{static_cast<double>(width), static_cast<double>(height)};
   try {
-    const double resolution = std::max(cell, kFinest);
-    spf::OccupancyMap map{spf::GridFrame::covering(low, high, resolution), std::max(kReach, 4.0 * resolution),
-                          parameters};
+    // Shapes between nodes keep their exact distance, so nodes may be farther apart than cells.
+    const double resolution = std::max(cell, host.map_resolution);
+    spf::OccupancyMap map{spf::GridFrame::covering(low, high, resolution),
+                          std::max(host.map_reach, 4.0 * resolution), occupancy};
     map.add_border(low, high);
     for (std::size_t j = 0; j < height; ++j) {
       const auto row = grid.data.begin() + static_cast<std::ptrdiff_t>(j * width);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spf/field/probability_field.hpp"
+#include "spf_empc_ros/color.hpp"
 #include "spf_empc_ros/conversions.hpp"
 
 namespace spf_empc_ros {
@@ -13,15 +14,6 @@ using visualization_msgs::Marker;
 
 constexpr double kSampleStep = 0.1;  // [s] of a drawn plan
 constexpr int kMostSamples = 600;
-
-std_msgs::ColorRGBA color(float red, float green, float blue, float alpha) {
-  std_msgs::ColorRGBA result;
-  result.r = red;
-  result.g = green;
-  result.b = blue;
-  result.a = alpha;
-  return result;
-}
 
 /// Colours of robots, easy to tell apart: the golden angle around the colour circle.
 std_msgs::ColorRGBA robot_color(int robot_id, float alpha) {

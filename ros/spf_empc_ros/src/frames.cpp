@@ -24,4 +24,13 @@ Converted<spf::Pose2> Frames::place(const std::string& frame, const std::string&
   }
 }
 
+Converted<spf::Pose2> Frames::pose(const std_msgs::Header& header, const geometry_msgs::Pose& pose,
+                                   const std::string& in) const {
+  const Converted<spf::Pose2> inner = from_message(pose);
+  if (!inner) return inner;
+  const Converted<spf::Pose2> outer = place(header.frame_id, in, header.stamp);
+  if (!outer) return outer;
+  return {compose(*outer, *inner), {}};
+}
+
 }  // namespace spf_empc_ros

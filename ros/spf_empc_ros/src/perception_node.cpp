@@ -36,12 +36,10 @@ void PerceptionNode::refuse(const char* what, const std::string& why) {
 }
 
 void PerceptionNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
-  const Converted<spf::Pose2> pose = from_message(odometry->pose.pose);
-  const Converted<spf::Pose2> frame =
-      frames_.place(odometry->header.frame_id, config_.frame, odometry->header.stamp);
-  if (!pose || !frame) return refuse("odom", pose ? frame.refusal : pose.refusal);
+  const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
+  if (!pose) return refuse("odom", pose.refusal);
   const spf::host::PoseVerdict verdict =
-      host_.add_pose({clock_.seconds(odometry->header.stamp), compose(*frame, *pose)}, now());
+      host_.add_pose({clock_.seconds(odometry->header.stamp), *pose}, now());
   if (!believed(verdict)) refuse("odom", to_string(verdict));
 }
 
@@ -66,7 +64,8 @@ void PerceptionNode::on_obstacles(const spf_empc_msgs::ObstacleTracks::ConstPtr&
 
 void PerceptionNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
   if (!config_.waits_for_map) return;
-  const Converted<spf::OccupancyMap> known = from_message(*map, config_.frame, config_.agent.occupancy);
+  const Converted<spf::OccupancyMap> known =
+      from_message(*map, config_.frame, config_.file.host, config_.agent.occupancy);
   if (!known) return refuse("/map", known.refusal);
   host_.set_map(*known);
 }

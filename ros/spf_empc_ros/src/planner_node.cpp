@@ -59,15 +59,13 @@ void PlannerNode::refuse(const char* what, const std::string& why) {
 // -----------------------------------------------------------------------------------------------------
 
 void PlannerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
-  const Converted<spf::Pose2> pose = from_message(odometry->pose.pose);
-  const Converted<spf::Pose2> frame =
-      frames_.place(odometry->header.frame_id, config_.frame, odometry->header.stamp);
-  if (!pose || !frame) {
+  const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
+  if (!pose) {
     host_.count_refused_input();
-    return refuse("odom", pose ? frame.refusal : pose.refusal);
+    return refuse("odom", pose.refusal);
   }
   const spf::host::PoseVerdict verdict =
-      host_.add_pose({clock_.seconds(odometry->header.stamp), compose(*frame, *pose)}, now());
+      host_.add_pose({clock_.seconds(odometry->header.stamp), *pose}, now());
   if (!believed(verdict)) refuse("odom", to_string(verdict));
 }
 
@@ -93,21 +91,20 @@ void PlannerNode::on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory)
 }
 
 void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
-  const Converted<spf::Pose2> pose = from_message(goal->pose);
-  const Converted<spf::Pose2> frame =
-      frames_.place(goal->header.frame_id.empty() ? config_.frame : goal->header.frame_id, config_.frame,
-                    goal->header.stamp);
-  if (!pose || !frame) {
+  std_msgs::Header header = goal->header;
+  if (header.frame_id.empty()) header.frame_id = config_.frame;
+  const Converted<spf::Pose2> place = frames_.pose(header, goal->pose, config_.frame);
+  if (!place) {
     host_.count_refused_input();
-    return refuse("goal", pose ? frame.refusal : pose.refusal);
+    return refuse("goal", place.refusal);
   }
-  const spf::Pose2 place = compose(*frame, *pose);
-  if (!host_.set_goal({place.position_world, place.heading})) refuse("goal", "beyond all robots");
+  if (!host_.set_goal({place->position_world, place->heading})) refuse("goal", "beyond all robots");
 }
 
 void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
   if (!config_.waits_for_map) return;
-  Converted<spf::OccupancyMap> known = from_message(*map, config_.frame, config_.agent.occupancy);
+  Converted<spf::OccupancyMap> known =
+      from_message(*map, config_.frame, config_.file.host, config_.agent.occupancy);
   if (!known) {
     host_.count_refused_input();
     return refuse("/map", known.refusal);

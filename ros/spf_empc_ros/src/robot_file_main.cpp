@@ -19,9 +19,9 @@ int main(int argc, char** argv) {
     std::vector<spf::Setting> settings;
     for (int i = 2; i < argc; ++i) settings.push_back({argv[i], "argument " + std::to_string(i)});
     const spf::Study study = spf::read_study(argv[1], settings);
-    spf::RobotFile file;
-    file.method = study.method;
-    file.robot = study.robot;
+    spf::RobotFile file = spf::default_robot_file(study.method, study.robot);
+    file.host.map_resolution = study.simulation.sensing.map_resolution;
+    file.host.map_reach = study.simulation.sensing.map_max_distance;
     file.agent = spf::sim::agent_parameters_for(spf::make_trial(study, 0), spf::agent_parameters(study));
     std::cout << spf::to_yaml_text(file, true);
   } catch (const std::exception& error) {

@@ -72,6 +72,7 @@ void read_scenario(const ros::NodeHandle& own, SimulatorConfig& config, std::str
     const spf::Study study = spf::read_study(path, overrides(own));
     config.scenario = spf::make_trial(study, own.param("trial", 0));
     config.control_period = study.agent.tracker.control_period;
+    config.map_resolution = 0.5 * study.simulation.sensing.map_resolution;
   } catch (const std::exception& error) {
     problems += std::string{"\n"} + error.what();
   }

@@ -6,6 +6,7 @@
 
 #include "sim/geometry.hpp"
 #include "sim/simulation.hpp"
+#include "spf_empc_ros/color.hpp"
 #include "spf_empc_ros/conversions.hpp"
 
 namespace spf_empc_ros {
@@ -70,15 +71,6 @@ void paint_shapes(const Scenario& scenario, CellPainter& painter, double resolut
   for (const Segment& wall : scenario.walls)
     painter.paint(wall.from.cwiseMin(wall.to), wall.from.cwiseMax(wall.to), resolution * std::sqrt(0.5),
                   [&](const Eigen::Vector2d& place) { return spf::sim::distance_to_segment(place, wall); });
-}
-
-std_msgs::ColorRGBA color(float r, float g, float b, float a = 1.0F) {
-  std_msgs::ColorRGBA result;
-  result.r = r;
-  result.g = g;
-  result.b = b;
-  result.a = a;
-  return result;
 }
 
 /// Markers of one array, by name and number.

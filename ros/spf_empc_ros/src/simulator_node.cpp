@@ -168,7 +168,7 @@ void SimulatorNode::publish_clock() {
 
 void SimulatorNode::publish_poses() {
   for (int i = 0; i < count(); ++i) {
-    if (world_.robots()[static_cast<std::size_t>(i)].wrecked) continue;
+    if (!world_.robots()[static_cast<std::size_t>(i)].active()) continue;
     const spf::PoseMeasurement measured = world_.measure_pose(i);
     if (dropped(FaultyTopic::odom, i)) continue;
     robots_[static_cast<std::size_t>(i)].odom.publish(
@@ -182,7 +182,7 @@ void SimulatorNode::publish_poses() {
 void SimulatorNode::publish_observations() {
   for (int i = 0; i < count(); ++i) {
     const Robot& robot = robots_[static_cast<std::size_t>(i)];
-    if (world_.robots()[static_cast<std::size_t>(i)].wrecked) continue;
+    if (!world_.robots()[static_cast<std::size_t>(i)].active()) continue;
     world_.observe(i, observation_);
     if (!dropped(FaultyTopic::obstacles, i))
       robot.obstacles.publish(obstacles_message(observation_.detections, stamp()));

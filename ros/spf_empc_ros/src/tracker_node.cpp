@@ -55,15 +55,13 @@ void TrackerNode::refuse(const char* what, const std::string& why) {
 }
 
 void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
-  const Converted<spf::Pose2> pose = from_message(odometry->pose.pose);
-  const Converted<spf::Pose2> frame =
-      frames_.place(odometry->header.frame_id, config_.frame, odometry->header.stamp);
-  if (!pose || !frame) {
+  const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
+  if (!pose) {
     host_.count_refused_pose();
-    return refuse("odom", pose ? frame.refusal : pose.refusal);
+    return refuse("odom", pose.refusal);
   }
   const spf::host::PoseVerdict verdict =
-      host_.add_pose({clock_.seconds(odometry->header.stamp), compose(*frame, *pose)}, now());
+      host_.add_pose({clock_.seconds(odometry->header.stamp), *pose}, now());
   if (!believed(verdict)) refuse("odom", to_string(verdict));
 }
 

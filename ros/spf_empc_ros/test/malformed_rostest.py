@@ -3,7 +3,6 @@
 import copy
 import sys
 import time
-import unittest
 
 import rospy
 import rostest
@@ -12,7 +11,7 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 from sensor_msgs.msg import LaserScan
 from spf_empc_msgs.msg import Observation, ObstacleTrack, ObstacleTracks, Trajectory
 
-from robot_world import Robot, World, drive, free_scan, wait_until
+from robot_world import OneRobotTest, drive, free_scan, wait_until
 
 
 def spoilt(good):
@@ -46,17 +45,13 @@ def peer(number, sequence, x, y, stamp):
     return message
 
 
-class Malformed(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.robot = Robot(3)
-        cls.world = World([cls.robot])
-        cls.robot.start_all()
-        cls.swarm = rospy.Publisher("/swarm/trajectories", Trajectory, queue_size=1000)
+class Malformed(OneRobotTest):
+    number = 3
 
     @classmethod
-    def tearDownClass(cls):
-        cls.world.end()
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.swarm = rospy.Publisher("/swarm/trajectories", Trajectory, queue_size=1000)
 
     def setUp(self):
         self.assertTrue(drive(self.robot), self.robot.status.reason)

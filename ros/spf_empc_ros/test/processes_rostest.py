@@ -6,20 +6,10 @@ import unittest
 import rospy
 import rostest
 
-from robot_world import Robot, World, braking_begins, drive, stands, wait_until
+from robot_world import OneRobotTest, Robot, World, braking_begins, drive, stands, wait_until
 
 
-class Processes(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.robot = Robot(0)
-        cls.world = World([cls.robot])
-        cls.robot.start_all()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.world.end()
-
+class Processes(OneRobotTest):
     def setUp(self):
         self.assertTrue(drive(self.robot), self.robot.status.reason)
 

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import threading
 import time
+import unittest
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -254,3 +255,18 @@ class LossyAir:
                 self.lost += 1
             else:
                 threading.Timer(self.random.uniform(0.0, self.longest_delay), publisher.publish, [message]).start()
+
+
+class OneRobotTest(unittest.TestCase):
+    """Tests that share one robot, its nodes as processes of their own, and its world."""
+    number = 0
+
+    @classmethod
+    def setUpClass(cls):
+        cls.robot = Robot(cls.number)
+        cls.world = World([cls.robot])
+        cls.robot.start_all()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.world.end()

@@ -1,29 +1,18 @@
 #!/usr/bin/python3
 """Stale and wrong measurements: the robot brakes in time, says why, and goes on by itself."""
 import sys
-import unittest
 
 import rospy
 import rostest
 
-from robot_world import Robot, World, braking_begins, drive, stands, wait_until
+from robot_world import OneRobotTest, braking_begins, drive, stands, wait_until
 
 STALE = 0.3  # [s] TeamParameters::stale_time
 # [s] begins within 0.1 s, seen at the next control tick; the rest is for a busy machine.
 LATEST = STALE + 0.1 + 0.05 + 0.05
 
 
-class Sensing(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.robot = Robot(0)
-        cls.world = World([cls.robot])
-        cls.robot.start_all()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.world.end()
-
+class Sensing(OneRobotTest):
     def check_stale(self, switch, sensor, reason):
         robot = self.robot
         self.assertTrue(drive(robot), robot.status.reason)

@@ -1,7 +1,9 @@
 // Places of frames in each other, from tf, in the plane.
 #pragma once
 
+#include <geometry_msgs/Pose.h>
 #include <ros/time.h>
+#include <std_msgs/Header.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -20,6 +22,10 @@ class Frames {
   /// waits.
   [[nodiscard]] Converted<spf::Pose2> place(const std::string& frame, const std::string& in,
                                             const ros::Time& time) const;
+
+  /// The pose of a message with its header, as one in `in`.
+  [[nodiscard]] Converted<spf::Pose2> pose(const std_msgs::Header& header, const geometry_msgs::Pose& pose,
+                                           const std::string& in) const;
 
  private:
   tf2_ros::Buffer buffer_;

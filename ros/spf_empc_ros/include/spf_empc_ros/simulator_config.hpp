@@ -29,7 +29,7 @@ struct SimulatorConfig {
   bool waits_for_robots = true;     ///< the clock stands until all robots are there
   bool publishes_goals = true;
   bool quits_when_done = false;
-  double map_resolution = 0.05;  ///< [m] of /map
+  double map_resolution = 0.05;  ///< [m] of /map; half of what the scenario's robots have
   std::vector<Fault> faults;
 };
 
