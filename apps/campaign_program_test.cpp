@@ -126,8 +126,8 @@ TEST_F(CampaignProgram, ResumesAfterSigkillWithTheSameRows) {
     const bool ready = ::chdir(folder_.c_str()) == 0 && std::freopen("/dev/null", "w", stdout) != nullptr &&
                        std::freopen("/dev/null", "w", stderr) != nullptr;
     if (ready)
-      ::execl(SPF_PROGRAM, SPF_PROGRAM, "experiment", "small.yaml", "--jobs", "2", "--trials", "1000000",
-              "--out", "killed", nullptr);
+      ::execl(program_path().c_str(), program_path().c_str(), "experiment", "small.yaml", "--jobs", "2",
+              "--trials", "1000000", "--out", "killed", nullptr);
     ::_exit(99);
   }
   ASSERT_GT(child, 0);
@@ -154,7 +154,7 @@ TEST_F(CampaignProgram, ResumesAfterSigkillWithTheSameRows) {
 TEST_F(CampaignProgram, TellsOfAFullDiskAndLosesNothing) {
   run_whole();
   // 512-byte blocks: room for some trials.
-  const Finished full = run("--version >/dev/null; (trap '' XFSZ; ulimit -f 40; '" SPF_PROGRAM
+  const Finished full = run("--version >/dev/null; (trap '' XFSZ; ulimit -f 40; '" + program_path() +
                             "' experiment small.yaml --out full)");
   EXPECT_EQ(full.status, 2);
   EXPECT_THAT(full.error, HasSubstr("full/trials.jsonl: cannot be written"));
@@ -223,7 +223,7 @@ TEST_F(CampaignProgram, RunsUnderGnuParallelAsDocumented) {
   std::string script = "set -e\n";
   for (std::string line : documented) {
     for (const auto& [from, to] :
-         std::vector<std::pair<std::string, std::string>>{{"spf ", std::string{SPF_PROGRAM} + " "},
+         std::vector<std::pair<std::string, std::string>>{{"spf ", program_path() + " "},
                                                           {"table2 --trials 500", "small.yaml"},
                                                           {"{}/16", "{}/3"},
                                                           {"$(seq 16)", "$(seq 3)"}}) {

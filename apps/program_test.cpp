@@ -223,8 +223,8 @@ TEST_F(Program, KeepsFinishedTrialsWhenInterrupted) {
     const bool silenced = std::freopen("/dev/null", "w", stdout) != nullptr &&
                           std::freopen("/dev/null", "w", stderr) != nullptr;
     if (changed == 0 && silenced)
-      ::execl(SPF_PROGRAM, SPF_PROGRAM, "run", "good.yaml", "--trials", "1000000", "--out", "results",
-              nullptr);
+      ::execl(program_path().c_str(), program_path().c_str(), "run", "good.yaml", "--trials", "1000000",
+              "--out", "results", nullptr);
     ::_exit(99);
   }
   ASSERT_GT(child, 0);

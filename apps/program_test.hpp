@@ -13,13 +13,18 @@
 #include <string>
 #include <vector>
 
+#include "spf/testing/source_dir.hpp"
+
 namespace spf {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-inline const std::string kSource = SPF_SOURCE_DIR;
+/// The spf program under test, as it was built.
+[[nodiscard]] std::string program_path();
+
+inline const std::string kSource = source_dir();
 
 inline std::string text_of(const fs::path& path) {
   std::ostringstream text;
@@ -60,7 +65,7 @@ class Program : public testing::Test {
     std::ofstream{folder_ / name} << text;
   }
   [[nodiscard]] std::string command(const std::string& arguments) const {
-    return "cd '" + folder_.string() + "' && '" SPF_PROGRAM "' " + arguments;
+    return "cd '" + folder_.string() + "' && '" + program_path() + "' " + arguments;
   }
   [[nodiscard]] Finished run(const std::string& arguments) const {
     const fs::path out = folder_ / "stdout", error = folder_ / "stderr";

@@ -14,8 +14,9 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --config "${CONFIG}" --component development --prefix ${work}/prefix)
+set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} "${LAUNCHER}")  # a list, which would not survive as an argument
 run(catkin_make_isolated --source ${ROS_DIR} --build ${work}/build --devel ${work}/devel
-  --cmake-args -DCMAKE_PREFIX_PATH=${work}/prefix -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
+  --cmake-args -DCMAKE_PREFIX_PATH=${work}/prefix -DCATKIN_ENABLE_TESTING=OFF
   -DCMAKE_BUILD_TYPE=Release)
 foreach(node planner_node tracker_node perception_node robot_node simulator_node)
   if(NOT EXISTS ${work}/devel/spf_empc_ros/lib/spf_empc_ros/${node})

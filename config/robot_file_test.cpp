@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "config/parameter_table.hpp"
+#include "spf/testing/source_dir.hpp"
 
 namespace spf {
 namespace {
@@ -58,7 +59,7 @@ TEST(RobotFile, ReadsBackWhatItWrites) {
 
 TEST(RobotFile, ThePageOfTheNodesNamesEveryHostParameter) {
   std::ostringstream page;
-  page << std::ifstream{std::string{SPF_SOURCE_DIR} + "/docs/ros.md"}.rdbuf();
+  page << std::ifstream{source_dir() + "/docs/ros.md"}.rdbuf();
   for (const ParameterRow& row : parameter_rows(host::HostParameters{})) {
     const std::string line =
         "| `host." + row.key + "` | " + row.value + " | " + (row.unit.empty() ? "" : row.unit) + " |";

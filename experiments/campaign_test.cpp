@@ -8,6 +8,7 @@
 #include "config/parameter_text.hpp"
 #include "experiments/campaign_run.hpp"
 #include "experiments/paper_figures.hpp"
+#include "spf/testing/source_dir.hpp"
 
 namespace spf {
 namespace {
@@ -94,7 +95,7 @@ TEST(CampaignPresets, AreGoodAndHaveThePapersRows) {
     const int expected = preset.name == "table2" ? 9 * 2 : preset.name == "table3" ? 5 * 2 * 2 : 0;
     EXPECT_EQ(paper_rows, expected) << preset.name;
   }
-  const std::string file = std::string{SPF_SOURCE_DIR} + "/scenarios/experiments/es2_check.yaml";
+  const std::string file = source_dir() + "/scenarios/experiments/es2_check.yaml";
   EXPECT_EQ(read_campaign(file).cells.size(), 4u);
 }
 

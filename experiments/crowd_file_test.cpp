@@ -9,6 +9,7 @@
 #include "experiments/result_row.hpp"
 #include "experiments/study_run.hpp"
 #include "sim/crowd_generator.hpp"
+#include "spf/testing/source_dir.hpp"
 #include "study/scenario_file.hpp"
 
 namespace spf {
@@ -16,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kPed = SPF_SOURCE_DIR "/scenarios/ped.yaml";
+const std::string kPed = source_dir() + "/scenarios/ped.yaml";
 const std::string kHeader = "t_s,agent_id,x_m,y_m\n";
 
 std::string problems_of(const std::string& text) {
@@ -93,9 +94,9 @@ std::string refusal(const std::vector<Setting>& settings, const std::string& fil
 
 TEST(PedScenario, NamesItsRecordingWherePathsBegin) {
   EXPECT_EQ(refusal({}), "good");  // beside the scenario file, wherever the test runs
-  EXPECT_EQ(refusal({{"crowd=" SPF_SOURCE_DIR "/scenarios/crowds/plaza.csv"}}), "good");
+  EXPECT_EQ(refusal({{"crowd=" + source_dir() + "/scenarios/crowds/plaza.csv"}}), "good");
   EXPECT_THAT(refusal({{"crowd=crowds/plaza.csv"}}), HasSubstr("--set: crowd = crowds/plaza.csv is no file"));
-  EXPECT_THAT(refusal({{"crowd=" SPF_SOURCE_DIR}}), HasSubstr("is not a regular file"));
+  EXPECT_THAT(refusal({{"crowd=" + source_dir()}}), HasSubstr("is not a regular file"));
   EXPECT_THROW(static_cast<void>(study_from_text("family: ped\n", "bare.yaml")), InputError);
 }
 
@@ -151,7 +152,7 @@ TEST(PedScenario, CountsCrossings) {
   request.trials = 2;
   expect_sound(run_study(read_study(kPed), request), 4);
   // Another family writes none of it.
-  Study study = read_study(SPF_SOURCE_DIR "/scenarios/swap.yaml");
+  Study study = read_study(source_dir() + "/scenarios/swap.yaml");
   study.layout.robots = 2;
   request.trials = 1;
   EXPECT_EQ(to_json_line(result_row(run_study(study, request))).find("crossings"), std::string::npos);

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "spf/testing/source_dir.hpp"
+
 namespace spf {
 namespace {
 
 YAML::Node experiment(const std::string& name) {
-  return YAML::LoadFile(SPF_SOURCE_DIR "/scenarios/experiments/" + name + ".yaml");
+  return YAML::LoadFile(source_dir() + "/scenarios/experiments/" + name + ".yaml");
 }
 
 TEST(PaperReadings, Table2RunsEveryLevelInBothReadingsOfTheNoise) {

@@ -9,6 +9,7 @@
 
 #include "sim/geometry.hpp"
 #include "spf/math/angles.hpp"
+#include "spf/testing/source_dir.hpp"
 
 namespace spf::sim {
 namespace {
@@ -21,7 +22,7 @@ struct Row {
 };
 
 std::vector<Row> read_reference_scenes() {
-  std::ifstream file{SPF_SOURCE_DIR "/sim/test_data/t2_scenes50.csv"};
+  std::ifstream file{source_dir() + "/sim/test_data/t2_scenes50.csv"};
   std::vector<Row> rows;
   std::string line;
   std::getline(file, line);  // names of the columns

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "config/yaml_reader.hpp"
+#include "spf/testing/source_dir.hpp"
 
 namespace spf {
 namespace {
@@ -30,7 +31,7 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-const std::filesystem::path kScenarios = std::filesystem::path{SPF_SOURCE_DIR} / "scenarios";
+const std::filesystem::path kScenarios = std::filesystem::path{source_dir()} / "scenarios";
 
 TEST(ScenarioFile, GivesTheFamilyOfTheProtocol) {
   const Study study = study_from_text("family: t2_hard\nnoise: {level: 1, model: walk}\n", "file.yaml");
