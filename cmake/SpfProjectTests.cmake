@@ -1,5 +1,5 @@
-# Tests of the project itself: its form, its architecture, and the installed package seen from outside. Once is enough, so
-# not in the sanitizer builds.
+# Tests of the project itself: its architecture, and the installed package seen from outside. Once is enough, so not in the
+# sanitizer builds. Format and lint are `script/check`, since they hold for one version of their tools.
 if(NOT PROJECT_IS_TOP_LEVEL OR SPF_SANITIZE)
   return()
 endif()
@@ -10,7 +10,6 @@ function(spf_project_test NAME)
   set_tests_properties(${NAME} PROPERTIES LABELS project TIMEOUT 900 SKIP_RETURN_CODE 77)
 endfunction()
 
-spf_project_test(check_format ${PROJECT_SOURCE_DIR}/script/check_format)
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   spf_project_test(check_architecture ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_architecture.py)
