@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "spf/tracking/observer.hpp"
+#include "spf/localisation/observer.hpp"
 #include "spf/tracking/test/mpc_instances.hpp"
 #include "spf/tracking/tracker.hpp"
 #ifdef SPF_HAVE_IPOPT

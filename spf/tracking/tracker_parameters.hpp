@@ -1,9 +1,9 @@
 // Parameters of the tracker: observer, reference and MPC.
 #pragma once
 
+#include "spf/localisation/observer_parameters.hpp"
 #include "spf/math/parameters.hpp"
 #include "spf/tracking/mpc.hpp"
-#include "spf/tracking/observer_parameters.hpp"
 #include "spf/tracking/reference_sampler.hpp"
 
 namespace spf {

@@ -8,9 +8,9 @@
 
 #include <array>
 
+#include "spf/localisation/axis_filter.hpp"
+#include "spf/localisation/observer_parameters.hpp"
 #include "spf/math/pose2.hpp"
-#include "spf/tracking/axis_filter.hpp"
-#include "spf/tracking/observer_parameters.hpp"
 
 namespace spf {
 

@@ -1,4 +1,4 @@
-#include "spf/tracking/axis_filter.hpp"
+#include "spf/localisation/axis_filter.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "spf/tracking/observer.hpp"
+#include "spf/localisation/observer.hpp"
 
 #include <algorithm>
 #include <cmath>
