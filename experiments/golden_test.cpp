@@ -1,0 +1,217 @@
+// The golden file: what every method did on trials 0, 1, ... of every family, down to the bits of the
+// positions. A change that is not meant to change behaviour leaves it untouched; docs/architecture.md says
+// how it is renewed.
+#include <gtest/gtest.h>
+
+#if defined(__GLIBC__)
+#include <gnu/libc-version.h>
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/study_run.hpp"
+#include "report/table.hpp"
+#include "spf/testing/source_dir.hpp"
+#include "study/scenario_file.hpp"
+
+namespace spf {
+namespace {
+
+const std::string kFile = source_dir() + "/experiments/test_data/golden.txt";
+
+/// One family and method; its trials in one line.
+struct GoldenRow {
+  std::string family;
+  std::string method;
+  std::string outcomes;  ///< a letter for each trial from 0: s(uccess), c(ollision), o(vertime)
+  std::string
+      time_ratio;  ///< [1] mean over all robots that arrived, of travel time to the obstacle-free; - = none
+  std::string digest;  ///< of the digests of the trials
+
+  [[nodiscard]] std::string name() const { return family + " " + method; }
+  [[nodiscard]] std::string facts() const { return outcomes + " " + time_ratio; }
+  [[nodiscard]] std::string text() const { return name() + " " + facts() + " " + digest; }
+};
+
+struct Golden {
+  std::string platform;
+  std::map<std::string, GoldenRow> rows;  ///< by name
+};
+
+/// What decides the last bits of sines and exponentials: the C library, and whether it may fuse products and
+/// sums.
+std::string platform() {
+  std::string text = "other C library";
+#if defined(__GLIBC__)
+  text = std::string{"glibc "} + gnu_get_libc_version();
+#endif
+#if defined(__x86_64__)
+  text += __builtin_cpu_supports("fma") ? ", x86_64 with FMA" : ", x86_64 without FMA";
+#else
+  text += ", not x86_64";
+#endif
+  return text;
+}
+
+constexpr const char* kPlatformKey = "platform: ";
+
+Golden read_golden(std::istream& file) {
+  Golden golden;
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.rfind(kPlatformKey, 0) == 0) golden.platform = line.substr(std::string{kPlatformKey}.size());
+    std::istringstream words{line};
+    GoldenRow row;
+    if (line.empty() || line[0] == '#' || line.rfind(kPlatformKey, 0) == 0) continue;
+    if (words >> row.family >> row.method >> row.outcomes >> row.time_ratio >> row.digest)
+      golden.rows[row.name()] = row;
+    else
+      ADD_FAILURE() << "not a row: " << line;
+  }
+  return golden;
+}
+
+int successes(const GoldenRow& row) {
+  return static_cast<int>(std::count(row.outcomes.begin(), row.outcomes.end(), 's'));
+}
+
+/// Where sines differ in their last bit, a trial is another draw of the same experiment from the first near
+/// miss on. Of n trials 0.4 n (at least 2) may then change sides, and the mean time ratio by a quarter: what
+/// was seen with the same C library's other sines (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4) is below
+/// half of that.
+bool alike(const GoldenRow& before, const GoldenRow& after) {
+  if (before.outcomes.size() != after.outcomes.size()) return false;
+  const int tolerance = std::max(2, static_cast<int>(0.4 * static_cast<double>(before.outcomes.size())));
+  if (std::abs(successes(before) - successes(after)) > tolerance) return false;
+  if (before.time_ratio == "-" || after.time_ratio == "-") return true;
+  const double ratio = std::stod(after.time_ratio) / std::stod(before.time_ratio);
+  return ratio > 0.8 && ratio < 1.25;
+}
+
+/// Why a row is not as recorded, empty when it is.
+std::string difference(const Golden& golden, const GoldenRow& row, const std::string& where) {
+  const auto recorded = golden.rows.find(row.name());
+  if (recorded == golden.rows.end()) return row.name() + ": no such row; now " + row.facts();
+  const GoldenRow& before = recorded->second;
+  if (golden.platform == where ? before.text() == row.text() : alike(before, row)) return "";
+  return row.name() + ": " + before.facts() + " -> " + row.facts() +
+         (before.facts() == row.facts() ? " (other positions alone)" : "");
+}
+
+GoldenRow row_of(const std::vector<TrialRecord>& records) {
+  GoldenRow row{records.front().key.family, records.front().key.method, "", "-", ""};
+  std::uint64_t digest = 14695981039346656037U;  // FNV-1a
+  double sum = 0.0;
+  int arrived = 0;
+  for (const TrialRecord& record : records) {
+    row.outcomes += record.outcome.front();
+    for (const char letter : record.digest)
+      digest = (digest ^ static_cast<unsigned char>(letter)) * 1099511628211U;
+    for (const RobotRecord& robot : record.robots) {
+      if (!robot.arrived) continue;
+      sum += robot.travel_time_ratio;
+      ++arrived;
+    }
+  }
+  if (arrived > 0) row.time_ratio = fixed(sum / arrived, 4);
+  std::ostringstream digits;
+  digits << std::hex << std::setfill('0') << std::setw(16) << digest;
+  row.digest = digits.str();
+  return row;
+}
+
+/// A family's scenes, full loop. Dear ones have fewer robots or trials, so that all take a minute of
+/// computing.
+struct GoldenScenes {
+  const char* family;
+  int trials;
+  std::vector<Setting> settings;
+};
+
+class GoldenSlow : public testing::TestWithParam<GoldenScenes> {
+ protected:
+  static const char* renewed_file() { return std::getenv("SPF_GOLDEN_OUT"); }
+
+  /// All rows of the program's run, where a file was asked for.
+  static void TearDownTestSuite() {
+    if (renewed_file() == nullptr) return;
+    std::ofstream file{renewed_file()};
+    file << "# What every method does on every family (experiments/golden_test.cpp): family, method, outcome "
+            "of trials 0, 1, ...\n"
+            "# (s success, c collision, o overtime), mean ratio of travel time to the obstacle-free, digest "
+            "of all positions.\n"
+            "# Written by script/golden --renew, in a commit of its own that says why "
+            "(docs/architecture.md).\n"
+         << kPlatformKey << platform() << "\n";
+    for (const GoldenRow& row : rows_) file << row.text() << "\n";
+  }
+
+  static inline std::vector<GoldenRow> rows_;
+};
+
+TEST_P(GoldenSlow, BehaviourIsAsRecorded) {
+  std::ifstream file{kFile};
+  const Golden golden = read_golden(file);
+  std::string differences;
+  for (const auto& [method, name] : EnumNames<Method>::values) {
+    std::vector<Setting> settings = GetParam().settings;
+    settings.push_back({std::string{"method="} + name});
+    const Study study = read_study(source_dir() + "/scenarios/" + GetParam().family + ".yaml", settings);
+    StudyRequest request;
+    request.trials = GetParam().trials;
+    request.jobs = renewed_file() != nullptr ? 0 : 1;
+    const GoldenRow row = row_of(run_study(study, request));
+    rows_.push_back(row);
+    const std::string changed = difference(golden, row, platform());
+    if (!changed.empty()) differences += changed + "\n";
+  }
+  if (renewed_file() != nullptr) {
+    std::cout << differences;
+    return;
+  }
+  EXPECT_EQ(differences, "") << "recorded on " << golden.platform << ", now on " << platform()
+                             << "; meant? script/golden --renew";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GoldenSlow,
+                         testing::Values(GoldenScenes{"t2", 10, {}}, GoldenScenes{"t2_hard", 2, {}},
+                                         GoldenScenes{"f7", 2, {{"robots=4"}}}, GoldenScenes{"p8", 5, {}},
+                                         GoldenScenes{"swap", 5, {}},
+                                         GoldenScenes{"field", 10, {{"robots=5"}}},
+                                         GoldenScenes{"ped", 5, {}}),
+                         [](const auto& scenes) { return std::string{scenes.param.family}; });
+
+Golden one_row(const std::string& outcomes, const std::string& ratio) {
+  std::istringstream file{"# head\nplatform: here\nt2 orca " + outcomes + " " + ratio + " abc\n"};
+  return read_golden(file);
+}
+
+TEST(Golden, OnTheSamePlatformEveryBitCounts) {
+  const Golden golden = one_row("sssssssscc", "1.0500");
+  EXPECT_EQ(difference(golden, {"t2", "orca", "sssssssscc", "1.0500", "abc"}, "here"), "");
+  EXPECT_EQ(difference(golden, {"t2", "orca", "sssssssscc", "1.0500", "abd"}, "here"),
+            "t2 orca: sssssssscc 1.0500 -> sssssssscc 1.0500 (other positions alone)");
+  EXPECT_EQ(difference(golden, {"t2", "orca", "sssssssccc", "1.0600", "abd"}, "here"),
+            "t2 orca: sssssssscc 1.0500 -> sssssssccc 1.0600");
+  EXPECT_NE(difference(golden, {"t2", "es2", "sssssssscc", "1.0500", "abc"}, "here"), "");
+}
+
+TEST(Golden, ElsewhereOutcomesAndTimesCountWithinTheirTolerance) {
+  const Golden golden = one_row("sssssssscc", "1.0500");
+  EXPECT_EQ(difference(golden, {"t2", "orca", "ccssssssco", "1.0900", "abd"}, "there"), "");
+  EXPECT_NE(difference(golden, {"t2", "orca", "cccccssscc", "1.0500", "abd"}, "there"), "");
+  EXPECT_NE(difference(golden, {"t2", "orca", "sssssssscc", "1.4000", "abd"}, "there"), "");
+  EXPECT_NE(difference(golden, {"t2", "orca", "ssssssssc", "1.0500", "abd"}, "there"), "");
+}
+
+}  // namespace
+}  // namespace spf
