@@ -1,7 +1,7 @@
 // The whole agent at work: what a planning call (with taking in what was seen and heard) and a control tick
-// (with the poses since the last) cost in simulated trials of the evaluation protocol. One iteration
-// simulates the first ten seconds of one trial; the counters are over all calls of all robots: plan_us_*,
-// control_us_*. `x_real_time` is the simulator with all its robots on one core against the clock.
+// (with the poses since the last) cost in simulated trials of the experiment protocol (docs/protocol.md). One
+// iteration simulates the first ten seconds of one trial; the counters are over all calls of all robots:
+// plan_us_*, control_us_*. `x_real_time` is the simulator with all its robots on one core against the clock.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -15,6 +15,8 @@ if(Python3_FOUND)
   spf_project_test(check_architecture ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_architecture.py)
   spf_project_test(check_architecture_catches ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_architecture_test.py)
   spf_project_test(check_paper_notes_catches ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_paper_notes_test.py)
+  spf_project_test(check_citations ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_citations.py)
+  spf_project_test(check_citations_catches ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_citations_test.py)
   spf_project_test(paper_notes_tests_exist ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_paper_notes.py)
 endif()
 spf_project_test(install_example ${CMAKE_COMMAND}

@@ -9,7 +9,7 @@
 namespace spf {
 namespace {
 
-constexpr double kStanding = 0.05;  // [m/s] slower stands (protocol section 2)
+constexpr double kStanding = 0.05;  // [m/s] slower stands (docs/protocol.md)
 
 int robot_in_question(const sim::TrialResult& result) {
   if (result.outcome == sim::TrialOutcome::collision && !result.contacts.empty())

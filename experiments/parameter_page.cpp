@@ -104,7 +104,7 @@ std::string parameter_page() {
       "are SI, "
       "angles in radians. `what` names the source where there is one: an equation or section of the paper, "
       "the "
-      "evaluation protocol, or our choice.\n\n"
+      "experiment protocol (docs/protocol.md), or our choice.\n\n"
       "Defaults are written down for the standard robot (radius r = 0.3 m, speed v = 1 m/s, acceleration a = "
       "1 m/s^2). "
       "Where the column `follows` names something, another robot's default is this one times: `size` r / 0.3 "

@@ -52,8 +52,7 @@ TEST(ReplayExport, KeepsTheTruthOfEveryFrame) {
   EXPECT_EQ(data.outcome, trial.record.outcome);
 }
 
-// The outline must hold the obstacle, grown by the robot, now and after the stretch time (design of the
-// threshold).
+// The outline must hold the obstacle, grown by the robot, now and after the stretch time.
 TEST(ReplayExport, OutlinesTheFieldAroundTheObstacle) {
   const auto [study, trial, data] = exported(kScene);
   const ReplayObstacle& obstacle = data.obstacles[0];

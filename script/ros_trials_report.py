@@ -12,7 +12,7 @@ import sys
 import time
 from pathlib import Path
 
-ALLOWED = 1  # trials that ROS may lose more: the protocol's demand
+ALLOWED = 1  # trial that ROS may lose more than one process
 LATE_SHARE = 0.05  # above this share of late control ticks, the machine was too slow for the speed
 
 

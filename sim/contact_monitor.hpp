@@ -1,4 +1,4 @@
-// Watches a trial for contacts, tick by tick, and for how near things came (protocol sections 2, 5 and 6).
+// Watches a trial for contacts, tick by tick, and for how near things came (docs/protocol.md).
 // Frame: world.
 #pragma once
 

@@ -13,7 +13,7 @@
 namespace spf::sim {
 namespace {
 
-constexpr int kMaxTries = 2000;     // within one group of shapes (protocol section 2)
+constexpr int kMaxTries = 2000;     // within one group of shapes (docs/protocol.md)
 constexpr int kMaxAttempts = 1000;  // scenes; ours, so that an impossible layout ends with a message
 
 Eigen::Vector2d draw_point(RandomStream& random, double half_width, double half_height) {

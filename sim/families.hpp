@@ -1,5 +1,5 @@
-// Scene generators of the evaluation protocol: every family draws a new scene for every trial, and the same
-// scene for the same (family, seed, trial) on every machine. Frame: world.
+// Scene generators of the experiment protocol (docs/protocol.md): every family draws a new scene for every
+// trial, and the same scene for the same (family, seed, trial) on every machine. Frame: world.
 #pragma once
 
 #include <array>
@@ -103,7 +103,7 @@ struct FamilySetup {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit("family", self.family, "generator of the protocol");
+    visit("family", self.family, "family of scenes");
     visit.group("layout", self.layout);
     visit.group("robot", self.robot);
     visit.group("simulation", self.simulation);
@@ -112,7 +112,7 @@ struct FamilySetup {
 
 inline constexpr std::uint64_t kDefaultSeed = 20240501;
 
-/// The protocol's numbers for a family.
+/// The protocol's numbers for a family (docs/protocol.md, Scenes).
 [[nodiscard]] FamilySetup family_setup(Family family);
 [[nodiscard]] std::optional<Family> family_of(const std::string& name);
 

@@ -53,8 +53,8 @@ void push_out_of_box(const Box& box, ObstacleState& disc) {
   }
 }
 
-/// Likewise from a point of a static shape that must stay `gap` away (ours: the protocol's families have
-/// boxes only).
+/// Likewise from a point of a static shape that must stay `gap` away (ours: the families have boxes
+/// only).
 void push_away_from(const Eigen::Vector2d& point, double gap, ObstacleState& disc) {
   const Eigen::Vector2d away = disc.position_world - point;
   const double distance = away.norm();

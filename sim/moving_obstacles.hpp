@@ -1,4 +1,4 @@
-// The moving discs of a trial (protocol section 3): every 0.1 s each draws its noise, moves, and is reflected
+// The moving discs of a trial (docs/protocol.md): every 0.1 s each draws its noise, moves, and is reflected
 // at the border and the static shapes; within a step it moves linearly. Nothing that robots do changes it.
 // Frame: world.
 #pragma once

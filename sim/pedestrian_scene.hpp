@@ -1,4 +1,4 @@
-// The scene of the family PED: robots cross a window of a recorded crowd (protocol section 2). Frame: world
+// The scene of the family PED: robots cross a window of a recorded crowd (docs/protocol.md). Frame: world
 // of the recording.
 #pragma once
 

@@ -50,7 +50,7 @@ struct CrowdSample {
 
 struct Scenario {
   std::string family = "custom";
-  int trial = 0;  ///< k of the protocol
+  int trial = 0;  ///< k of docs/protocol.md
   std::uint64_t seed = 20240501;
 
   /// Bounds discs and robots: a centre stays inside by its radius; a robot that leaves has hit the border.
@@ -82,11 +82,11 @@ struct ScenarioProblem {
 [[nodiscard]] double rest_to_rest_time(double distance, double max_speed, double max_acceleration);
 
 /// The trial's time limit [s]: as set, or max(120 s, 4 times the slowest robot's obstacle-free time)
-/// (protocol 5).
+/// (docs/protocol.md).
 [[nodiscard]] double time_limit_of(const Scenario& scenario);
 
 /// What a random stream is for. Streams of different roles or indices are independent, and none is the
-/// scene's or the obstacles' (protocol section 1).
+/// scene's or the obstacles' (docs/protocol.md).
 enum class StreamRole : std::uint64_t {
   pose = 0x504F5345'00000000ULL,
   seam = 0x5345414D'00000000ULL,

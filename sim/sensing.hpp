@@ -1,4 +1,4 @@
-// What the robots' sensors report of the truth (protocol section 4): own pose with its noise and seams,
+// What the robots' sensors report of the truth (docs/protocol.md): own pose with its noise and seams,
 // moving obstacles in range, range scans. Every noise comes from a stream of its own role and robot. Frame:
 // world.
 #pragma once

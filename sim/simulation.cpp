@@ -12,7 +12,7 @@ struct Simulation::Implementation {
   Implementation(const Scenario& scenario, const AgentParameters& agent,
                  const SimulationOptions& given_options);
 
-  // One tick, in the order of the protocol.
+  // One tick, in the order of docs/protocol.md.
   void begin();
   void hear();
   void observe();

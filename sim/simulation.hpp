@@ -1,5 +1,5 @@
 // Hosts one RobotAgent per robot in a scenario's ground truth and runs one trial to its end, in the order of
-// protocol section 5. Deterministic: the result depends on scenario and parameters alone, never on clocks or
+// docs/protocol.md. Deterministic: the result depends on scenario and parameters alone, never on clocks or
 // threads.
 #pragma once
 

@@ -1,5 +1,5 @@
 // How a trial is run: what moves, what is sensed, how robots talk, when it ends. Units SI. Everything a
-// scenario file may set beside the geometry; protocol sections 2-5 give the defaults.
+// scenario file may set beside the geometry; docs/protocol.md gives the defaults.
 #pragma once
 
 #include <array>
@@ -77,7 +77,7 @@ namespace spf::sim {
 
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// Disturbance of the moving obstacles (protocol section 3).
+/// Disturbance of the moving obstacles (docs/protocol.md).
 struct ObstacleNoiseParameters {
   NoiseModel model = NoiseModel::white;
   double level = 0.0;        ///< [1] s: multiplies both covariances, 1 = "1 Sigma"
@@ -93,7 +93,7 @@ struct ObstacleNoiseParameters {
   }
 };
 
-/// What robots see (protocol section 4).
+/// What robots see (docs/protocol.md).
 struct SensingParameters {
   double range = 8.0;  ///< [m] of the detector and of the range sensor
   MapKnowledge map = MapKnowledge::known;
@@ -162,7 +162,7 @@ struct RadioParameters {
   }
 };
 
-/// How motion is made, and how a trial ends (protocol section 5).
+/// How motion is made, and how a trial ends (docs/protocol.md).
 struct TrialParameters {
   TrackingMode tracking = TrackingMode::full;
   AfterContact after_contact = AfterContact::end;

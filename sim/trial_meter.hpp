@@ -1,4 +1,5 @@
-// Adds up the figures of a trial while it runs (protocol section 6): of the truth, and of the agents in it.
+// Adds up the figures of a trial while it runs (docs/protocol.md, Figures): of the truth, and of the agents
+// in it.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What a trial came to (protocol section 6).
+// What a trial came to (docs/protocol.md, Figures).
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@ class World {
   /// Throws std::invalid_argument with all reasons when the scenario cannot be used.
   explicit World(const Scenario& scenario);
 
-  // A tick has two halves, in the order of protocol section 5: begin_tick(); what is due is sensed and
+  // A tick has two halves, in the order of docs/protocol.md: begin_tick(); what is due is sensed and
   // commanded; end_tick(). A host may go on after finished(); the world does not mind.
   void begin_tick();
   /// Moves the robots, sweeps for contacts, notes arrivals; then it is one tick later. Throws

@@ -1,6 +1,6 @@
-// Scenario files: a family of the evaluation protocol or a place drawn by hand, with everything that differs
-// from the defaults. Reading one gives a Study, from which every trial's ground truth and every robot's
-// parameters follow. Frame: world, SI.
+// Scenario files: a family of the experiment protocol (docs/protocol.md) or a place drawn by hand, with
+// everything that differs from the defaults. Reading one gives a Study, from which every trial's ground truth
+// and every robot's parameters follow. Frame: world, SI.
 #pragma once
 
 #include <Eigen/Core>
@@ -199,7 +199,7 @@ template <class Self, class Visitor>
 void Study::visit_fields(Self& self, Visitor&& visit) {
   visit.required("family");
   visit("family", self.family,
-        "generator of the evaluation protocol, or explicit: the scene stands in the file");
+        "family of scenes (docs/protocol.md), or explicit: the scene stands in the file");
   visit("seed", self.seed, "1", Range{0.0, 18446744073709551615.0}, "seed of everything random");
   visit("method", self.method, "how robots plan and track: a set of agent parameters");
   if (self.family == SceneFamily::explicit_scene) {

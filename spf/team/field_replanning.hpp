@@ -1,5 +1,5 @@
 // When the paper's planner is asked again, and what is done when it finds nothing: keep the plan, brake, step
-// aside, try again later (design: replanning). Every robot brakes for every peer here, whatever its priority.
+// aside, try again later. Every robot brakes for every peer here, whatever its priority.
 #pragma once
 
 #include "spf/planning/evasion.hpp"

@@ -1,4 +1,4 @@
-// What a robot tells its peers: its committed trajectory and its state (design: team).
+// What a robot tells its peers: its committed trajectory and its state.
 #pragma once
 
 #include <cstdint>
