@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "apps/run_summary.hpp"
 #include "apps/version.hpp"
 #include "config/parameter_text.hpp"
+#include "parallel/worker_pool.hpp"
 #include "report/table.hpp"
 
 namespace spf {
@@ -116,7 +116,7 @@ std::string campaign_json(const Campaign& campaign, const CampaignFacts& facts, 
                   {"asked", facts.asked},
                   {"finished", facts.finished},
                   {"jobs", facts.jobs},
-                  {"processors", std::thread::hardware_concurrency()},
+                  {"processors", processor_count()},
                   {"wall_seconds", facts.wall_time}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

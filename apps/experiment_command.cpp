@@ -1,13 +1,9 @@
 // spf experiment: runs a campaign, whole or a part of it, and goes on with an interrupted one.
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <set>
-#include <sstream>
-#include <thread>
 
 #include "apps/campaign_summary.hpp"
 #include "apps/command.hpp"
@@ -21,8 +17,8 @@
 #include "experiments/campaign.hpp"
 #include "experiments/campaign_pictures.hpp"
 #include "experiments/campaign_run.hpp"
-#include "experiments/results_folder.hpp"
-#include "experiments/trial_log.hpp"
+#include "experiments/trial_store.hpp"
+#include "parallel/worker_pool.hpp"
 #include "report/table.hpp"
 
 namespace spf {
@@ -122,12 +118,6 @@ Shard read_shard(const std::string& text) {
   return shard;
 }
 
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream{path, std::ios::binary}.rdbuf();
-  return text.str();
-}
-
 /// One campaign on its way through `spf experiment`.
 class Experiment {
  public:
@@ -138,10 +128,12 @@ class Experiment {
         progress_{options.quiet} {
     const std::vector<CampaignFigure>& figures = plan_.campaign.figures;
     const bool times = std::find(figures.begin(), figures.end(), CampaignFigure::runtime) != figures.end();
-    jobs_ = options.jobs.value_or(times ? 1 : 0);
-    if (jobs_ == 0) jobs_ = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    jobs_ = thread_count(options.jobs.value_or(times ? 1 : 0));
     if (!options_.json.empty() && options_.json != "-") require_writable(options_.json);
-    if (!options_.out.empty()) open_folder();
+    if (options_.out.empty())
+      store_.emplace(plan_);
+    else
+      open_folder();
     catch_interrupts();
   }
 
@@ -154,24 +146,24 @@ class Experiment {
     request.stop = interrupted;
     const std::size_t all = request.trials.size();
     std::size_t done = 0;
-    request.finished = [&](const TrialRecord& record) {
-      if (lines_) lines_->append(to_json_line(record));
-      records_.push_back(record);
+    request.finished = [&](TrialRecord record) {
+      store_->add(std::move(record));
       show_progress(++done, all);
     };
     try {
       run_campaign(plan_, request);
     } catch (const OutputError& error) {
       progress_.end();
-      throw OutputError{std::string{error.what()} + "\n" + std::to_string(records_.size()) +
+      throw OutputError{std::string{error.what()} + "\n" + std::to_string(store_->size()) +
                         " trials are kept; make room, then go on with --resume"};
     }
-    if (folder_) draw_pictures();
+    if (store_->folder() != nullptr) draw_pictures();
     progress_.end();
     finish(wanted.size());
     if (!interrupted()) return kDone;
     std::cerr << "interrupted after " << done << " of " << all << " trials"
-              << (lines_ ? "; go on with --resume" : "; nothing is kept without --out") << "\n";
+              << (store_->folder() != nullptr ? "; go on with --resume" : "; nothing is kept without --out")
+              << "\n";
     return kInterruptedStatus;
   }
 
@@ -183,17 +175,10 @@ class Experiment {
       throw OutputError{
           log.string() +
           ": holds the trials of an earlier run; go on with it by --resume, or choose another --out"};
-    folder_.emplace(options_.out, EarlierResults::keep);
-    // The file is ours from here on, so that nobody writes while it is read.
-    lines_.emplace(log, fs::exists(log, error) ? fs::file_size(log) : 0);
-    const TrialLog earlier = read_trial_log(log);
-    if (earlier.torn) {
+    store_.emplace(plan_, options_.out, EarlierResults::keep);
+    if (store_->torn())
       std::cerr << log.string() << ": the last line was cut off in writing; that trial runs again\n";
-      lines_.reset();
-      lines_.emplace(log, earlier.good_bytes);
-    }
-    take_over(earlier, log);
-    earlier_run_ = text_of(folder_->file("run.json"));
+    earlier_run_ = text_of_file(store_->folder()->file("run.json"));
     const std::vector<std::string> commits = commits_of(earlier_run_);
     if (!commits.empty() && commits.back() != kCommit)
       std::cerr << "warning: " << log.string() << " was begun by commit " << commits.back()
@@ -201,38 +186,23 @@ class Experiment {
     write_inputs();
   }
 
-  void take_over(const TrialLog& earlier, const fs::path& log) {
-    std::set<std::pair<int, int>> seen;
-    int line = 0;
-    for (const TrialRecord& record : earlier.records) {
-      ++line;
-      const int cell = cell_index(plan_, record);
-      if (cell < 0)
-        throw InputError{{log.string(), line, 0},
-                         "is a trial of " + cell_text(record.key) +
-                             ", which is not in this campaign or has other settings; choose another --out"};
-      if (seen.emplace(cell, record.key.trial).second) records_.push_back(record);
-    }
-  }
-
   void write_inputs() const {
-    folder_->write("campaign.yaml",
-                   "# The campaign as it was run, by spf; cells/ holds the scenario of every row.\n" +
-                       to_yaml_text(plan_.campaign));
+    store_->folder()->write(
+        "campaign.yaml", "# The campaign as it was run, by spf; cells/ holds the scenario of every row.\n" +
+                             to_yaml_text(plan_.campaign));
     std::error_code error;
-    fs::create_directories(folder_->file("cells"), error);
-    if (error) throw OutputError{folder_->file("cells").string() + ": cannot be made: " + error.message()};
+    fs::create_directories(store_->folder()->file("cells"), error);
+    if (error)
+      throw OutputError{store_->folder()->file("cells").string() + ": cannot be made: " + error.message()};
     for (const Cell& cell : plan_.cells)
-      write_file_atomically(folder_->file("cells") / cell_file_name(cell.key), resolved_scenario(cell.study));
+      write_file_atomically(store_->folder()->file("cells") / cell_file_name(cell.key),
+                            resolved_scenario(cell.study));
   }
 
-  [[nodiscard]] std::vector<CampaignTrial> missing(const std::vector<CampaignTrial>& wanted) const {
-    std::set<std::pair<int, int>> have;
-    for (const TrialRecord& record : records_) have.emplace(cell_index(plan_, record), record.key.trial);
-    std::vector<CampaignTrial> left;
-    for (const CampaignTrial& trial : wanted)
-      if (have.count({trial.cell, trial.trial}) == 0) left.push_back(trial);
-    return left;
+  [[nodiscard]] std::vector<CampaignTrial> missing(std::vector<CampaignTrial> wanted) const {
+    std::erase_if(wanted,
+                  [this](const CampaignTrial& trial) { return store_->has(trial.cell, trial.trial); });
+    return wanted;
   }
 
   void show_progress(std::size_t done, std::size_t all) {
@@ -247,38 +217,34 @@ class Experiment {
   void draw_pictures() {
     if (!has_pictures(plan_.campaign)) return;
     std::error_code error;
-    fs::create_directories(folder_->file("pictures"), error);
-    if (error) throw OutputError{folder_->file("pictures").string() + ": cannot be made: " + error.message()};
-    for (const Cell& cell : plan_.cells) {
-      const bool ours = std::any_of(records_.begin(), records_.end(), [&](const TrialRecord& record) {
-        return same_cell(record.key, cell.key) && record.key.trial == plan_.campaign.first;
-      });
-      if (!ours || interrupted()) continue;
+    fs::create_directories(store_->folder()->file("pictures"), error);
+    if (error)
+      throw OutputError{store_->folder()->file("pictures").string() + ": cannot be made: " + error.message()};
+    for (std::size_t i = 0; i < plan_.cells.size(); ++i) {
+      const Cell& cell = plan_.cells[i];
+      if (!store_->has(static_cast<int>(i), plan_.campaign.first) || interrupted()) continue;
       progress_.show("pictures of " + cell_text(cell.key));
       for (const StoredPicture& picture : pictures_of(plan_.campaign, cell, plan_.campaign.first))
-        write_file_atomically(folder_->file("pictures") / picture.name, picture.svg);
+        write_file_atomically(store_->folder()->file("pictures") / picture.name, picture.svg);
     }
   }
 
   void finish(std::size_t asked) {
-    sort_records(plan_, records_);
-    const std::vector<CellTrials> cells = by_cell(records_);
+    const std::size_t finished = store_->size();
+    const std::vector<CellTrials> cells = by_cell(store_->finish());
     const std::vector<ResultRow> rows = rows_of(cells);
     const std::string lines = json_lines(rows, pairs_of(cells));
-    if (folder_) {
-      std::string trials;
-      for (const TrialRecord& record : records_) trials += to_json_line(record) + "\n";
+    if (const ResultsFolder* folder = store_->folder()) {
       CampaignFacts facts;
       facts.command = options_.command;
       facts.shard = shard_;
       facts.jobs = jobs_;
       facts.asked = asked;
-      facts.finished = records_.size();
+      facts.finished = finished;
       facts.wall_time = steady_seconds() - began_;
-      folder_->write("trials.jsonl", trials);
-      folder_->write("summary.csv", csv_text(rows));
-      folder_->write("summary.jsonl", lines);
-      folder_->write("run.json", campaign_json(plan_.campaign, facts, earlier_run_));
+      folder->write("summary.csv", csv_text(rows));
+      folder->write("summary.jsonl", lines);
+      folder->write("run.json", campaign_json(plan_.campaign, facts, earlier_run_));
     }
     if (options_.json == "-") {
       std::cout << lines;  // and nothing else, for pipes
@@ -286,7 +252,7 @@ class Experiment {
     }
     if (!options_.json.empty()) write_file_atomically(options_.json, lines);
     std::cout << plan_.campaign.name << ": " << plan_.campaign.title << "\n\n" << campaign_table(rows);
-    if (folder_)
+    if (store_->folder() != nullptr)
       std::cout << "\nresults: " << options_.out << "\nreport:  spf report " << options_.out << "\n";
   }
 
@@ -295,10 +261,8 @@ class Experiment {
   Shard shard_;
   ProgressLine progress_;
   int jobs_ = 1;
-  std::optional<ResultsFolder> folder_;
-  std::optional<LineFile> lines_;
+  std::optional<TrialStore> store_;
   std::string earlier_run_;
-  std::vector<TrialRecord> records_;
   double began_ = steady_seconds();
 };
 

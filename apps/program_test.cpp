@@ -171,7 +171,8 @@ TEST_F(Program, PrintsTheRowAloneWhenAsked) {
 /// A trial's line without what a clock measured.
 std::string without_timings(const std::string& line) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(line);
-  for (const char* name : {"plan_time", "control_time", "wall_time"}) json.erase(name);
+  for (const char* name : {"plan_time", "control_time", "wall_time", "new_plan_time", "optimiser_time"})
+    json.erase(name);
   return json.dump();
 }
 
@@ -231,6 +232,10 @@ TEST_F(Program, KeepsFinishedTrialsWhenInterrupted) {
   // Wait for two trials; far longer than they ever take.
   for (int i = 0; i < 12000 && lines_of(trials).size() < 2; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  // Meanwhile the folder is its own.
+  const Finished second = run("run good.yaml --out results");
+  EXPECT_EQ(second.status, 2);
+  EXPECT_THAT(second.error, HasSubstr("is being written by another run"));
   ::kill(child, SIGINT);
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);

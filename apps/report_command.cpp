@@ -3,6 +3,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "apps/campaign_summary.hpp"
@@ -15,9 +16,7 @@
 #include "experiments/campaign_report.hpp"
 #include "experiments/replay_export.hpp"
 #include "experiments/results_folder.hpp"
-#include "experiments/study_run.hpp"
 #include "report/html_text.hpp"
-#include "report/replay_page.hpp"
 
 namespace spf {
 namespace {
@@ -138,7 +137,7 @@ class Report {
     std::size_t longest = 0;
     for (std::size_t i = 0; i < parts.cells.size(); ++i) {
       for (const TrialRecord& record : parts.cells[i])
-        if (record.outcome != "success" && !parts.scenarios[i].empty()) failed[i].push_back(&record);
+        if (!record.succeeded() && !parts.scenarios[i].empty()) failed[i].push_back(&record);
       longest = std::max(longest, failed[i].size());
     }
     int written = 0;
@@ -163,21 +162,16 @@ class Report {
     std::error_code error;
     if (fs::exists(folder / name, error)) return address;
     progress_.show("replay of trial " + std::to_string(record.key.trial) + " of " + cell_text(record.key));
-    const Study study = read_study(parts.scenarios[cell].string());
-    SingleRequest request;
-    request.trial = record.key.trial;
-    request.record = true;
-    request.clock = steady_seconds;
-    request.progress = [](double) { return !interrupted(); };
-    RecordedTrial trial = run_single(study, request);
-    if (trial.stopped) return "";
-    if (trial.record.digest != record.digest)
+    Cell again = cell_of(read_study(parts.scenarios[cell].string()));
+    again.key = record.key;
+    const std::optional<ReplayPage> page = replay_page(again, record, steady_seconds, interrupted);
+    if (!page) return "";
+    if (page->went_another_way)
       std::cerr << "warning: trial " << record.key.trial << " of " << cell_text(record.key)
                 << " went another way than in the results: they come from another version\n";
-    trial.record.key = record.key;
     fs::create_directories(folder, error);
     if (error) throw OutputError{folder.string() + ": cannot be made: " + error.message()};
-    write_file_atomically(folder / name, render_replay(replay_data(study, trial)));
+    write_file_atomically(folder / name, page->html);
     return address;
   }
 

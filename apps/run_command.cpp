@@ -2,15 +2,15 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "apps/command.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/run_summary.hpp"
+#include "experiments/campaign_run.hpp"
 #include "experiments/replay_export.hpp"
-#include "experiments/results_folder.hpp"
-#include "experiments/study_run.hpp"
+#include "experiments/trial_store.hpp"
+#include "parallel/worker_pool.hpp"
 #include "report/replay_page.hpp"
 #include "report/table.hpp"
 
@@ -30,58 +30,71 @@ struct RunOptions {
   std::vector<std::string> command;
 };
 
-int threads(int jobs) {
-  return jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+std::string time_left(double elapsed, std::size_t done, int all) {
+  if (done == 0) return "";
+  return ", " + clock_text(elapsed / static_cast<double>(done) * (all - static_cast<int>(done))) + " left";
 }
 
-std::string time_left(double elapsed, int done, int all) {
-  return done == 0 ? "" : ", " + clock_text(elapsed / done * (all - done)) + " left";
-}
-
-/// One scenario on its way through `spf run`.
+/// One scenario on its way through `spf run`: a campaign of one cell.
 class Run {
  public:
   Run(const RunOptions& options, Study study)
-      : options_{options}, study_{std::move(study)}, progress_{options.quiet} {
+      : options_{options},
+        plan_{single_cell(std::move(study), options.first, options.trials.value_or(1))},
+        progress_{options.quiet} {
     if (!options_.json.empty() && options_.json != "-") require_writable(options_.json);
-    if (!options_.out.empty()) folder_.emplace(options_.out);
+    if (options_.out.empty())
+      store_.emplace(plan_);
+    else
+      store_.emplace(plan_, options_.out, EarlierResults::remove);
     catch_interrupts();
   }
 
   int once() {
-    SingleRequest request;
-    request.trial = options_.first;
-    request.record = folder_.has_value();
-    request.clock = steady_seconds;
-    request.progress = [this](double time) {
+    TrialOptions trial;
+    trial.record = store_->folder() != nullptr;
+    trial.clock = steady_seconds;
+    trial.progress = [this](double time) {
       const double elapsed = steady_seconds() - began_;
       progress_.show(fixed(time, 1) + " s simulated, " + fixed(time / std::max(elapsed, 1e-3), 1) +
                      " times real time");
       return !interrupted();
     };
-    const RecordedTrial trial = run_single(study_, request);
-    if (trial.stopped) {
+    const FinishedTrial finished = run_trial(cell(), options_.first, trial);
+    if (finished.stopped) {
       progress_.end();
-      std::cerr << "interrupted after " << fixed(trial.record.sim_time, 1)
+      std::cerr << "interrupted after " << fixed(finished.record.sim_time, 1)
                 << " s of simulated time; nothing is kept\n";
       return kInterruptedStatus;
     }
-    if (folder_) {
-      folder_->write("trials.jsonl", to_json_line(trial.record) + "\n");
-      folder_->write("replay.html", render_replay(replay_data(study_, trial)));
-      pages_.push_back(folder_->file("replay.html").string());
-    }
-    finish({trial.record});
-    return trial.record.outcome == "success" ? kDone : kFailedCheck;
+    store_->add(finished.record);
+    if (finished.recording) write_page("replay.html", render_replay(replay_data(cell().study, finished)));
+    finish(store_->finish());
+    return finished.record.succeeded() ? kDone : kFailedCheck;
   }
 
   int many() {
-    const std::vector<TrialRecord> records = run_all();
+    int good = 0;
+    CampaignRequest request;
+    request.trials = trials_of(plan_);
+    request.jobs = thread_count(options_.jobs);
+    request.clock = steady_seconds;
+    request.stop = interrupted;
+    request.finished = [&](TrialRecord record) {
+      good += record.succeeded() ? 1 : 0;
+      store_->add(std::move(record));
+      progress_.show("trial " + std::to_string(store_->size()) + " of " + std::to_string(*options_.trials) +
+                     ", " + std::to_string(good) + " succeeded" +
+                     time_left(steady_seconds() - began_, store_->size(), *options_.trials));
+    };
+    run_campaign(plan_, request);
+    progress_.end();
+    const std::vector<TrialRecord> records = store_->finish();
     if (records.empty()) {
       std::cerr << "interrupted before the first trial ended; nothing is kept\n";
       return kInterruptedStatus;
     }
-    if (folder_) write_replays(records);
+    if (store_->folder() != nullptr) write_replays(records);
     finish(records);
     if (!interrupted()) return kDone;
     std::cerr << "interrupted: " << records.size() << " of " << *options_.trials << " trials are kept\n";
@@ -89,69 +102,42 @@ class Run {
   }
 
  private:
-  /// Each trial is on the disk as soon as it ends; at the end the file is put into the order of the trials.
-  std::vector<TrialRecord> run_all() {
-    std::optional<LineFile> lines;
-    if (folder_) lines.emplace(folder_->file("trials.jsonl"));
-    int good = 0;
-    StudyRequest request;
-    request.first = options_.first;
-    request.trials = *options_.trials;
-    request.jobs = threads(options_.jobs);
-    request.clock = steady_seconds;
-    request.stop = interrupted;
-    request.progress = [&](const TrialRecord& record, int done) {
-      good += record.outcome == "success" ? 1 : 0;
-      if (lines) lines->append(to_json_line(record));
-      progress_.show("trial " + std::to_string(done) + " of " + std::to_string(*options_.trials) + ", " +
-                     std::to_string(good) + " succeeded" +
-                     time_left(steady_seconds() - began_, done, *options_.trials));
-      return !interrupted();
-    };
-    std::vector<TrialRecord> records = run_study(study_, request);
-    progress_.end();
-    std::string text;
-    for (const TrialRecord& record : records) text += to_json_line(record) + "\n";
-    if (folder_) folder_->write("trials.jsonl", text);
-    return records;
+  [[nodiscard]] const Cell& cell() const { return plan_.cells.front(); }
+
+  void write_page(const std::string& name, const std::string& html) {
+    store_->folder()->write(name, html);
+    pages_.push_back(store_->folder()->file(name).string());
   }
 
   /// Failed trials are run again, recorded.
   void write_replays(const std::vector<TrialRecord>& records) {
     int written = 0;
     for (const TrialRecord& record : records) {
-      if (record.outcome == "success" || written == options_.replays || interrupted()) continue;
+      if (record.succeeded() || written == options_.replays || interrupted()) continue;
       progress_.show("replay of trial " + std::to_string(record.key.trial));
-      SingleRequest request;
-      request.trial = record.key.trial;
-      request.record = true;
-      request.clock = steady_seconds;
-      request.progress = [](double) { return !interrupted(); };
-      const RecordedTrial trial = run_single(study_, request);
-      if (trial.stopped) return;
-      if (trial.record.digest != record.digest)
+      const std::optional<ReplayPage> page = replay_page(cell(), record, steady_seconds, interrupted);
+      if (!page) return;
+      if (page->went_another_way)
         std::cerr << "warning: trial " << record.key.trial << " went another way when it was run again\n";
-      const std::string name = replay_name(record.key.trial);
-      folder_->write(name, render_replay(replay_data(study_, trial)));
-      pages_.push_back(folder_->file(name).string());
+      write_page(replay_name(record.key.trial), page->html);
       ++written;
     }
   }
 
   void finish(const std::vector<TrialRecord>& records) {
     const ResultRow row = result_row(records);
-    if (folder_) {
+    if (const ResultsFolder* folder = store_->folder()) {
       RunFacts facts;
       facts.command = options_.command;
       facts.first = options_.first;
       facts.trials = options_.trials.value_or(1);
       facts.finished = static_cast<int>(records.size());
-      facts.jobs = threads(options_.jobs);
+      facts.jobs = thread_count(options_.jobs);
       facts.wall_time = steady_seconds() - began_;
-      folder_->write("scenario.yaml", resolved_scenario(study_));
-      folder_->write("summary.csv", csv_header() + to_csv_line(row));
-      folder_->write("summary.jsonl", to_json_line(row) + "\n");
-      folder_->write("run.json", run_json(study_, facts));
+      folder->write("scenario.yaml", resolved_scenario(cell().study));
+      folder->write("summary.csv", csv_header() + to_csv_line(row));
+      folder->write("summary.jsonl", to_json_line(row) + "\n");
+      folder->write("run.json", run_json(cell().study, facts));
     }
     progress_.end();
     if (options_.json == "-") {
@@ -159,15 +145,15 @@ class Run {
       return;
     }
     if (!options_.json.empty()) write_file_atomically(options_.json, to_json_line(row) + "\n");
-    std::cout << summary_text(study_, records);
+    std::cout << summary_text(cell().study, records);
     for (const std::string& page : pages_) std::cout << "replay: " << page << "\n";
-    if (folder_) std::cout << "results: " << folder_->path().string() << "\n";
+    if (store_->folder() != nullptr) std::cout << "results: " << store_->folder()->path().string() << "\n";
   }
 
   const RunOptions& options_;
-  Study study_;
+  CampaignPlan plan_;
   ProgressLine progress_;
-  std::optional<ResultsFolder> folder_;
+  std::optional<TrialStore> store_;
   double began_ = steady_seconds();
   std::vector<std::string> pages_;
 };

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "apps/version.hpp"
 #include "config/parameter_text.hpp"
 #include "experiments/statistics.hpp"
+#include "parallel/worker_pool.hpp"
 #include "report/table.hpp"
 
 namespace spf {
@@ -47,8 +47,8 @@ std::string failures_text(const std::vector<TrialRecord>& trials) {
   Table table{{{"trial"}, {"outcome", Alignment::left}, {"why", Alignment::left}}};
   std::size_t failed = 0;
   for (const TrialRecord& trial : trials) {
-    if (trial.outcome == "success" || ++failed > kMost) continue;
-    table.add_row({std::to_string(trial.key.trial), trial.outcome, trial.failure});
+    if (trial.succeeded() || ++failed > kMost) continue;
+    table.add_row({std::to_string(trial.key.trial), enum_name(trial.outcome), trial.failure});
   }
   if (failed == 0) return "";
   std::string text = "\n" + table.to_text();
@@ -78,7 +78,7 @@ std::string summary_text(const Study& study, const std::vector<TrialRecord>& tri
   add("seed", std::to_string(study.seed));
   add(single ? "trial" : "trials", trials_text(trials));
   if (single)
-    add("outcome", trials.front().outcome);
+    add("outcome", enum_name(trials.front().outcome));
   else
     add("success", success_text(row));
   if (!single)
@@ -124,7 +124,7 @@ std::string run_json(const Study& study, const RunFacts& facts) {
                                     {"trials", facts.trials},
                                     {"finished", facts.finished},
                                     {"jobs", facts.jobs},
-                                    {"processors", std::thread::hardware_concurrency()},
+                                    {"processors", processor_count()},
                                     {"wall_seconds", facts.wall_time}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -1,8 +1,6 @@
 #include "experiments/campaign.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -11,6 +9,7 @@
 #include "config/parameter_text.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
+#include "experiments/hexadecimal.hpp"
 
 namespace spf {
 namespace {
@@ -24,10 +23,7 @@ bool is_plain(char c) {
 std::string hash_text(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  std::array<char, 16> digits;
-  const std::to_chars_result end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16);
-  const std::string shown{digits.data(), end.ptr};
-  return std::string(16 - shown.size(), '0') + shown;
+  return hexadecimal(hash);
 }
 
 /// Where the scenes of a cell come from, and what they are called.
@@ -193,19 +189,12 @@ class CellMaker {
     if (!runs(choice)) return;
     try {
       const std::vector<Setting> settings = settings_of(choice);
-      Cell cell;
-      cell.study = choice.scene.file.empty()
-                       ? study_from_text("family: " + choice.scene.name + "\n", choice.scene.name, settings)
-                       : read_study(choice.scene.file, settings);
-      cell.setup = hash_text(identity_text(cell.study));
-      cell.key = {choice.scene.name,
-                  choice.contender.name.empty() ? enum_name(cell.study.method) : choice.contender.name,
-                  enum_name(cell.study.simulation.noise.model),
-                  cell.study.simulation.noise.level,
-                  enum_name(cell.study.simulation.trial.tracking),
-                  cell.study.seed,
-                  0,
-                  choice.condition.name};
+      Cell cell = cell_of(choice.scene.file.empty() ? study_from_text("family: " + choice.scene.name + "\n",
+                                                                      choice.scene.name, settings)
+                                                    : read_study(choice.scene.file, settings));
+      cell.key.family = choice.scene.name;
+      if (!choice.contender.name.empty()) cell.key.method = choice.contender.name;
+      cell.key.condition = choice.condition.name;
       const std::string problem = trials_problem(cell.study, campaign_.first, campaign_.trials);
       if (!problem.empty() && told_.insert(problem).second) refuse("trials", problem);
       cells_.push_back(std::move(cell));
@@ -245,6 +234,29 @@ CampaignPlan read_document(YamlNode root, const std::filesystem::path& folder,
 }
 
 }  // namespace
+
+Cell cell_of(Study study) {
+  Cell cell;
+  cell.setup = hash_text(identity_text(study));
+  cell.key.family = enum_name(study.family);
+  cell.key.method = enum_name(study.method);
+  cell.key.noise = enum_name(study.simulation.noise.model);
+  cell.key.level = study.simulation.noise.level;
+  cell.key.tracking = enum_name(study.simulation.trial.tracking);
+  cell.key.seed = study.seed;
+  cell.study = std::move(study);
+  return cell;
+}
+
+CampaignPlan single_cell(Study study, int first, int trials) {
+  CampaignPlan plan;
+  plan.cells.push_back(cell_of(std::move(study)));
+  plan.campaign.name = plan.cells.front().key.family;
+  plan.campaign.seed = plan.cells.front().key.seed;
+  plan.campaign.first = first;
+  plan.campaign.trials = trials;
+  return plan;
+}
 
 CampaignPlan read_campaign(const std::string& path, const std::vector<Setting>& settings,
                            const std::vector<Setting>& scene_settings) {

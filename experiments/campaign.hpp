@@ -119,6 +119,11 @@ struct CampaignPlan {
   std::vector<Cell> cells;  ///< at least one
 };
 
+/// The cell of a study, under the names of its own family and method.
+[[nodiscard]] Cell cell_of(Study study);
+/// The campaign of a single study: trials `first` to `first + trials - 1` of one cell.
+[[nodiscard]] CampaignPlan single_cell(Study study, int first, int trials);
+
 /// Reads a campaign file. `settings` are written over its own keys, `scene_settings` over every scenario's.
 /// Throws InputError with every problem.
 [[nodiscard]] CampaignPlan read_campaign(const std::string& path, const std::vector<Setting>& settings = {},

@@ -2,23 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "config/input_problem.hpp"
+#include "experiments/results_folder.hpp"
 #include "experiments/trial_log.hpp"
 
 namespace spf {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream{path, std::ios::binary}.rdbuf();
-  return text.str();
-}
 
 struct Folder {
   fs::path path;
@@ -50,7 +43,8 @@ void add_pictures(const fs::path& folder, std::vector<StoredPicture>& pictures) 
     const std::string name = entry->path().filename().string();
     const bool known = std::any_of(pictures.begin(), pictures.end(),
                                    [&name](const StoredPicture& other) { return other.name == name; });
-    if (!known && entry->path().extension() == ".svg") pictures.push_back({name, text_of(entry->path())});
+    if (!known && entry->path().extension() == ".svg")
+      pictures.push_back({name, text_of_file(entry->path())});
   }
   std::sort(pictures.begin(), pictures.end(),
             [](const StoredPicture& a, const StoredPicture& b) { return a.name < b.name; });
@@ -147,7 +141,7 @@ std::vector<CampaignParts> read_parts(const std::vector<fs::path>& folders) {
       mergers.emplace_back();
     }
     all[i].folders.push_back(path);
-    all[i].run_files.push_back(text_of(path / "run.json"));
+    all[i].run_files.push_back(text_of_file(path / "run.json"));
     add_pictures(path, all[i].pictures);
     mergers[i].add(folder);
   }

@@ -5,7 +5,7 @@
 
 #include "config/parameter_text.hpp"
 #include "experiments/replay_export.hpp"
-#include "experiments/study_run.hpp"
+#include "experiments/trial_run.hpp"
 #include "report/chart_svg.hpp"
 #include "report/frame_svg.hpp"
 #include "report/table.hpp"
@@ -59,10 +59,9 @@ bool has_pictures(const Campaign& campaign) {
 std::vector<StoredPicture> pictures_of(const Campaign& campaign, const Cell& cell, int trial) {
   std::vector<StoredPicture> pictures;
   if (!has_pictures(campaign)) return pictures;
-  SingleRequest request;
-  request.trial = trial;
-  request.record = true;
-  const RecordedTrial recorded = run_single(cell.study, request);
+  TrialOptions options;
+  options.record = true;
+  const FinishedTrial recorded = run_trial(cell, trial, options);
   const std::string name = stem_of(cell.key) + "_trial" + std::to_string(trial);
   if (shows(campaign, CampaignFigure::wheels))
     for (int wheel = 0; wheel < 3; ++wheel)

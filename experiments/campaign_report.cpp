@@ -118,15 +118,18 @@ std::string paired_section(const CampaignParts& parts) {
 PageTable failed_trials(const CampaignParts& parts, std::size_t cell, const ReplayLinks& replays) {
   PageTable table{"", {"trial", "outcome", "what happened", "what the robot was about", "see it"}, {}};
   for (const TrialRecord& record : parts.cells[cell]) {
-    if (record.outcome == "success") continue;
+    if (record.succeeded()) continue;
     PageCell number{std::to_string(record.key.trial)};
     number.header = true;
     PageCell see;
     const auto link = replays.find({cell, record.key.trial});
     if (link != replays.end()) see.html = "<a href=\"" + escape_html(link->second) + "\">replay</a> ";
     see.html += "<code>" + escape_html(replay_command(parts, cell, record.key.trial)) + "</code>";
-    table.rows.push_back(
-        {number, {record.outcome}, {record.failure}, {record.cause ? to_text(*record.cause) : "-"}, see});
+    table.rows.push_back({number,
+                          {enum_name(record.outcome)},
+                          {record.failure},
+                          {record.cause ? to_text(*record.cause) : "-"},
+                          see});
   }
   return table;
 }
@@ -134,7 +137,7 @@ PageTable failed_trials(const CampaignParts& parts, std::size_t cell, const Repl
 std::string replays_text(const CampaignParts& parts, const ReplayLinks& replays) {
   std::size_t failed = 0;
   for (const CellTrials& cell : parts.cells)
-    for (const TrialRecord& record : cell) failed += record.outcome != "success" ? 1 : 0;
+    for (const TrialRecord& record : cell) failed += !record.succeeded() ? 1 : 0;
   std::string text = std::to_string(replays.size()) + " of " + std::to_string(failed) +
                      " failed trials have their replay here";
   if (replays.size() < failed) text += "; spf report --replays all adds the others";

@@ -1,104 +1,33 @@
 #include "experiments/campaign_run.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
+#include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
+#include <utility>
 
-#include "experiments/failure_cause.hpp"
-#include "experiments/study_run.hpp"
-#include "sim/simulation.hpp"
+#include "experiments/trial_run.hpp"
+#include "parallel/worker_pool.hpp"
 
 namespace spf {
 namespace {
 
-/// Ends the trial under way from inside, when told to stop.
-struct Stopped {};
-
-/// Planning calls by what they did: most only find that the plan is still good.
-void time_parts(const sim::Recording& recording, TrialRecord& record) {
-  for (const sim::RecordedPlan& plan : recording.plans) {
-    const PlanStats& stats = plan.stats;
-    if (!(plan.plan_ms > 0.0) || stats.optimiser_calls + stats.manoeuvres == 0) continue;
-    record.new_plan_time.add(1e-3 * plan.plan_ms);
-    if (stats.optimiser_calls > 0) record.optimiser_time.add(1e-3 * plan.plan_ms / stats.optimiser_calls);
-  }
-}
-
-/// Commands and true speeds; unknown where nothing drives wheels (ideal tracking).
-double wheel_share(const sim::Recording& recording) {
-  if (recording.scenario.simulation.trial.tracking == sim::TrackingMode::ideal) return kNotKnown;
-  double most = 0.0;
-  for (const sim::RecordedFrame& frame : recording.frames)
-    for (const sim::RecordedRobot& robot : frame.robots)
-      most = std::max(
-          {most, robot.wheel_speeds.cwiseAbs().maxCoeff(), robot.wheel_commands.cwiseAbs().maxCoeff()});
-  return most / recording.scenario.robot.max_wheel_speed;
-}
-
-TrialRecord run_trial(const Cell& cell, int trial, const CampaignRequest& request) {
-  sim::SimulationOptions options;
-  options.record = true;  // for the cause of a failure; it is dropped with the result
+/// The record of a trial; none when it was told to stop.
+std::optional<TrialRecord> record_of(const Cell& cell, int trial, const CampaignRequest& request) {
+  if (request.stop && request.stop()) return std::nullopt;
+  TrialOptions options;
   options.clock = request.clock;
-  if (request.clock && request.stop)
-    options.clock = [&request] {
-      if (request.stop()) throw Stopped{};
-      return request.clock();
-    };
-  sim::TrialResult result =
-      sim::Simulation{make_trial(cell.study, trial), agent_parameters(cell.study), options}.run();
-  result.trial = trial;
-  TrialRecord record = record_of(cell.study, result);
-  record.key = cell.key;
-  record.key.trial = trial;
-  record.setup = cell.setup;
-  record.cause = cause_of(result);
-  record.wheel_share = wheel_share(*result.recording);
-  time_parts(*result.recording, record);
-  return record;
-}
-
-/// What the threads share.
-struct Bench {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> stop{false};
-  std::mutex mutex;  // guards what follows, and `finished`
-  std::exception_ptr failure;
-};
-
-void work(const CampaignPlan& plan, const CampaignRequest& request, Bench& bench) {
-  while (!bench.stop && !(request.stop && request.stop())) {
-    const std::size_t index = bench.next++;
-    if (index >= request.trials.size()) return;
-    const CampaignTrial& item = request.trials[index];
-    const Cell& cell = plan.cells[static_cast<std::size_t>(item.cell)];
-    const auto fail = [&bench](std::exception_ptr failure) {
-      const std::lock_guard lock{bench.mutex};
-      if (!bench.failure) bench.failure = std::move(failure);
-      bench.stop = true;
-    };
-    TrialRecord record;
-    try {
-      record = run_trial(cell, item.trial, request);
-    } catch (const Stopped&) {
-      return;
-    } catch (const std::bad_alloc&) {
-      return fail(std::current_exception());
-    } catch (const std::exception& error) {
-      return fail(std::make_exception_ptr(std::runtime_error{"trial " + std::to_string(item.trial) + " of " +
-                                                             cell_text(cell.key) + ": " + error.what()}));
-    }
-    const std::lock_guard lock{bench.mutex};
-    if (bench.stop) return;
-    try {
-      if (request.finished) request.finished(record);
-    } catch (...) {
-      bench.failure = std::current_exception();
-      bench.stop = true;
-    }
+  if (request.stop) options.progress = [&request](double) { return !request.stop(); };
+  try {
+    FinishedTrial finished = run_trial(cell, trial, options);
+    if (finished.stopped) return std::nullopt;
+    return std::move(finished.record);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw std::runtime_error{"trial " + std::to_string(trial) + " of " + cell_text(cell.key) + ": " +
+                             error.what()};
   }
 }
 
@@ -118,16 +47,17 @@ std::vector<CampaignTrial> trials_of(const CampaignPlan& plan, Shard shard) {
 }
 
 void run_campaign(const CampaignPlan& plan, const CampaignRequest& request) {
-  Bench bench;
-  const std::size_t most = std::max<std::size_t>(request.trials.size(), 1);
-  const std::size_t jobs =
-      std::clamp<std::size_t>(static_cast<std::size_t>(std::max(request.jobs, 1)), 1, most);
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < jobs; ++i) threads.emplace_back([&] { work(plan, request, bench); });
-    work(plan, request, bench);
-  }  // joined here
-  if (bench.failure) std::rethrow_exception(bench.failure);
+  const std::vector<CampaignTrial>& trials = request.trials;
+  WorkerPool pool{std::min(request.jobs, static_cast<int>(std::min<std::size_t>(trials.size(), 1024)))};
+  pool.collect(
+      trials.size(),
+      [&](std::size_t i) {
+        return record_of(plan.cells[static_cast<std::size_t>(trials[i].cell)], trials[i].trial, request);
+      },
+      [&](std::size_t, TrialRecord record) {
+        if (request.finished) request.finished(std::move(record));
+        return true;
+      });
 }
 
 int cell_index(const CampaignPlan& plan, const TrialRecord& record) {
@@ -135,18 +65,6 @@ int cell_index(const CampaignPlan& plan, const TrialRecord& record) {
     if (same_cell(plan.cells[i].key, record.key) && plan.cells[i].setup == record.setup)
       return static_cast<int>(i);
   return -1;
-}
-
-void sort_records(const CampaignPlan& plan, std::vector<TrialRecord>& records) {
-  std::vector<std::pair<int, std::size_t>> order;
-  for (std::size_t i = 0; i < records.size(); ++i) order.emplace_back(cell_index(plan, records[i]), i);
-  std::sort(order.begin(), order.end(), [&records](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first < b.first : records[a.second].key.trial < records[b.second].key.trial;
-  });
-  std::vector<TrialRecord> sorted;
-  sorted.reserve(records.size());
-  for (const auto& [cell, index] : order) sorted.push_back(std::move(records[index]));
-  records = std::move(sorted);
 }
 
 }  // namespace spf

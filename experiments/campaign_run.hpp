@@ -30,10 +30,10 @@ struct CampaignRequest {
   std::vector<CampaignTrial> trials;
   int jobs = 1;                   ///< threads
   std::function<double()> clock;  ///< [s] steady, callable from any thread; none: nothing is timed
-  std::function<bool()> stop;     ///< asked often, when there is a clock; true drops the trials under way
+  std::function<bool()> stop;     ///< asked often, on any thread; true drops the trials under way
   /// Called after each trial, by one thread at a time, in the order in which they end. What it throws ends
   /// the run and is thrown again by run_campaign.
-  std::function<void(const TrialRecord&)> finished;
+  std::function<void(TrialRecord)> finished;
 };
 
 /// Runs the trials. The records are the same for any number of threads, timings aside. Throws
@@ -42,7 +42,5 @@ void run_campaign(const CampaignPlan& plan, const CampaignRequest& request);
 
 /// Index of the cell of a record; -1 when the plan has no such cell.
 [[nodiscard]] int cell_index(const CampaignPlan& plan, const TrialRecord& record);
-/// Puts records into the order of the table: by cell, then by trial.
-void sort_records(const CampaignPlan& plan, std::vector<TrialRecord>& records);
 
 }  // namespace spf

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "experiments/result_row.hpp"
-#include "experiments/study_run.hpp"
+#include "experiments/run_study_test.hpp"
 #include "sim/crowd_generator.hpp"
 #include "spf/testing/source_dir.hpp"
 #include "study/scenario_file.hpp"
@@ -148,14 +148,11 @@ void expect_sound(const std::vector<TrialRecord>& records, int robots) {
 }
 
 TEST(PedScenario, CountsCrossings) {
-  StudyRequest request;
-  request.trials = 2;
-  expect_sound(run_study(read_study(kPed), request), 4);
+  expect_sound(run_study(read_study(kPed), 0, 2), 4);
   // Another family writes none of it.
   Study study = read_study(source_dir() + "/scenarios/swap.yaml");
   study.layout.robots = 2;
-  request.trials = 1;
-  EXPECT_EQ(to_json_line(result_row(run_study(study, request))).find("crossings"), std::string::npos);
+  EXPECT_EQ(to_json_line(result_row(run_study(study, 0, 1))).find("crossings"), std::string::npos);
 }
 
 TEST(PedScenario, RunsOnRecordings) {
@@ -167,9 +164,7 @@ TEST(PedScenario, RunsOnRecordings) {
     if (entry.path().extension() != ".csv") continue;
     SCOPED_TRACE(entry.path());
     const Study study = read_study(kPed, {{"crowd=" + entry.path().string()}});
-    StudyRequest request;
-    request.first = trial_count(study).value() - 1;
-    expect_sound(run_study(study, request), 4);
+    expect_sound(run_study(study, trial_count(study).value() - 1, 1), 4);
     ++seen;
   }
   EXPECT_GT(seen, 0);

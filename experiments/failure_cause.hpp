@@ -1,17 +1,11 @@
-// Why a trial failed, as far as its recording tells: what the robot was about.
+// Why a trial failed, in words: what the robot was about.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "experiments/trial_record.hpp"
-#include "sim/trial_result.hpp"
 
 namespace spf {
-
-/// Of the robot that made the first contact, or of the first that is not home. None after a success, or
-/// without a recording.
-[[nodiscard]] std::optional<CauseRecord> cause_of(const sim::TrialResult& result);
 
 /// "its last plan: unsafe, 0.4 s before; it stood: obstacle ahead 2"
 [[nodiscard]] std::string to_text(const CauseRecord& cause);

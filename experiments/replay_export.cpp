@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "report/replay_page.hpp"
 #include "report/table.hpp"
 #include "spf/field/probability_field.hpp"
 
@@ -271,8 +272,8 @@ void describe_outcome(ReplayData& data, const TrialRecord& record) {
   data.level = key.level;
   data.seed = key.seed;
   data.trial = key.trial;
-  data.outcome = record.outcome;
-  data.success = record.outcome == "success";
+  data.outcome = enum_name(record.outcome);
+  data.success = record.succeeded();
   int arrived = 0;
   for (const RobotRecord& robot : record.robots) arrived += robot.arrived ? 1 : 0;
   data.summary = {{"robots home", std::to_string(arrived) + " of " + std::to_string(record.robots.size())},
@@ -285,7 +286,7 @@ void describe_outcome(ReplayData& data, const TrialRecord& record) {
 
 }  // namespace
 
-ReplayData replay_data(const Study& study, const RecordedTrial& trial) {
+ReplayData replay_data(const Study& study, const FinishedTrial& trial) {
   const sim::Recording& recording = *trial.recording;
   ReplayData data;
   data.states.clear();
@@ -298,6 +299,18 @@ ReplayData replay_data(const Study& study, const RecordedTrial& trial) {
   std::stable_sort(data.events.begin(), data.events.end(),
                    [](const ReplayEvent& a, const ReplayEvent& b) { return a.time < b.time; });
   return data;
+}
+
+std::optional<ReplayPage> replay_page(const Cell& cell, const TrialRecord& record,
+                                      const std::function<double()>& clock,
+                                      const std::function<bool()>& stop) {
+  TrialOptions options;
+  options.record = true;
+  options.clock = clock;
+  options.progress = [&stop](double) { return !stop(); };
+  const FinishedTrial trial = run_trial(cell, record.key.trial, options);
+  if (trial.stopped) return std::nullopt;
+  return ReplayPage{render_replay(replay_data(cell.study, trial)), trial.record.digest != record.digest};
 }
 
 }  // namespace spf

@@ -11,17 +11,17 @@ namespace {
 
 struct Exported {
   Study study;
-  RecordedTrial trial;
+  FinishedTrial trial;
   ReplayData data;
 };
 
 Exported exported(const std::string& scene) {
   Exported result{study_from_text("family: explicit\n" + scene, "scene.yaml"), {}, {}};
-  SingleRequest request;
-  request.record = true;
+  TrialOptions options;
+  options.record = true;
   double seconds = 0.0;
-  request.clock = [&seconds] { return seconds += 1e-6; };
-  result.trial = run_single(result.study, request);
+  options.clock = [&seconds] { return seconds += 1e-6; };
+  result.trial = run_trial(cell_of(result.study), 0, options);
   result.data = replay_data(result.study, result.trial);
   return result;
 }
@@ -49,7 +49,7 @@ TEST(ReplayExport, KeepsTheTruthOfEveryFrame) {
     EXPECT_EQ(data.obstacles[0].frames[k].position.x, recording.frames[k].movers[0].state.position_world.x());
   }
   EXPECT_EQ(data.robots[1].goal.y, 2.0);
-  EXPECT_EQ(data.outcome, trial.record.outcome);
+  EXPECT_EQ(data.outcome, enum_name(trial.record.outcome));
 }
 
 // The outline must hold the obstacle, grown by the robot, now and after the stretch time.

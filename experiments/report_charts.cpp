@@ -148,7 +148,7 @@ std::vector<std::string> travel_charts(const CampaignParts& parts) {
     RowChart& chart = charts[index].second;
     std::vector<double> times;
     for (const TrialRecord& trial : cell)
-      if (trial.outcome == "success")
+      if (trial.succeeded())
         for (const RobotRecord& robot : trial.robots) times.push_back(robot.travel_time);
     ChartRow row;
     row.label = cell.front().key.method;

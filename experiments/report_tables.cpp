@@ -42,7 +42,7 @@ struct Successes {
 
   explicit Successes(const CellTrials& trials) {
     for (const TrialRecord& trial : trials) {
-      if (trial.outcome != "success") continue;
+      if (!trial.succeeded()) continue;
       if (std::isfinite(trial.dynamic_distance)) distances.push_back(trial.dynamic_distance);
       for (const RobotRecord& robot : trial.robots) {
         lengths.push_back(robot.path_length);
@@ -272,7 +272,7 @@ PageTable failure_table(const CampaignParts& parts) {
   for (const CellTrials& cell : parts.cells)
     for (const TrialRecord& record : cell) {
       ++trials[record.key.method];
-      if (record.outcome == "success") continue;
+      if (record.succeeded()) continue;
       const std::string kind = failure_kind(record);
       ++counts[kind][record.key.method];
       ++totals[kind];

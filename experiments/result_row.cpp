@@ -26,11 +26,19 @@ struct Travel {
   }
 };
 
-void count_outcome(ResultRow& row, const std::string& outcome) {
+void count_outcome(ResultRow& row, sim::TrialOutcome outcome) {
   ++row.trials;
-  if (outcome == "success") ++row.success;
-  if (outcome == "overtime") ++row.overtime;
-  if (outcome == "collision") ++row.collision;
+  switch (outcome) {
+    case sim::TrialOutcome::success:
+      ++row.success;
+      return;
+    case sim::TrialOutcome::overtime:
+      ++row.overtime;
+      return;
+    case sim::TrialOutcome::collision:
+      ++row.collision;
+      return;
+  }
 }
 
 double calls_per_robot(const TrialRecord& trial) {
@@ -43,7 +51,7 @@ void fill_successes(ResultRow& row, const std::vector<TrialRecord>& trials) {
   Travel travel;
   std::vector<double> distances, clearances;
   for (const TrialRecord& trial : trials) {
-    if (trial.outcome != "success") continue;
+    if (!trial.succeeded()) continue;
     for (const RobotRecord& robot : trial.robots) travel.add(robot);
     if (std::isfinite(trial.dynamic_distance)) distances.push_back(trial.dynamic_distance);
     if (std::isfinite(trial.dynamic_clearance)) clearances.push_back(trial.dynamic_clearance);
@@ -153,7 +161,7 @@ std::string to_csv_line(const ResultRow& row) {
 PairedRow paired_row(const std::vector<TrialRecord>& a, const std::vector<TrialRecord>& b) {
   assert(!a.empty() && !b.empty());
   std::map<int, bool> successes_of_a;
-  for (const TrialRecord& trial : a) successes_of_a[trial.key.trial] = trial.outcome == "success";
+  for (const TrialRecord& trial : a) successes_of_a[trial.key.trial] = trial.succeeded();
   PairedRow row;
   const TrialKey& key = a.front().key;
   row.family = key.family;
@@ -167,7 +175,7 @@ PairedRow paired_row(const std::vector<TrialRecord>& a, const std::vector<TrialR
   for (const TrialRecord& trial : b) {
     const auto found = successes_of_a.find(trial.key.trial);
     if (found == successes_of_a.end()) continue;
-    const bool success_of_b = trial.outcome == "success";
+    const bool success_of_b = trial.succeeded();
     ++row.trials;
     ++(found->second ? (success_of_b ? row.both : row.only_a) : (success_of_b ? row.only_b : row.neither));
   }

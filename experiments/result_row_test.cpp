@@ -23,19 +23,21 @@ RobotRecord robot(bool arrived, double time, std::int64_t calls) {
   return record;
 }
 
-TrialRecord trial(int number, const std::string& outcome, double distance, double time) {
+using Outcome = sim::TrialOutcome;
+
+TrialRecord trial(int number, Outcome outcome, double distance, double time) {
   TrialRecord record;
   record.key = {"t2", "space_time", "walk", 1.0, "full", 20240501, number, ""};
   record.outcome = outcome;
   record.dynamic_distance = distance;
   record.dynamic_clearance = distance - 0.7;
-  record.robots = {robot(true, time, 10), robot(outcome == "success", time + 2.0, 30)};
+  record.robots = {robot(true, time, 10), robot(outcome == Outcome::success, time + 2.0, 30)};
   record.sim_time = time + 3.0;
   record.wall_time = 0.5;
   record.plan_time.add(1e-3);
   record.control_time.add(2e-6);
   record.digest = "0123456789abcdef";
-  if (outcome == "collision") {
+  if (outcome == Outcome::collision) {
     record.contact = ContactRecord{12.5, 1, "disc", 3, {0.1, -2.0}, 0.4, 0.9};
     record.failure = "robot 1 touched disc 3";
   }
@@ -43,8 +45,8 @@ TrialRecord trial(int number, const std::string& outcome, double distance, doubl
 }
 
 std::vector<TrialRecord> some_trials() {
-  return {trial(0, "success", 1.0, 30.0), trial(1, "collision", 0.6, 12.0), trial(2, "success", 1.4, 32.0),
-          trial(3, "overtime", 0.9, 120.0)};
+  return {trial(0, Outcome::success, 1.0, 30.0), trial(1, Outcome::collision, 0.6, 12.0),
+          trial(2, Outcome::success, 1.4, 32.0), trial(3, Outcome::overtime, 0.9, 120.0)};
 }
 
 TEST(ResultRow, CondensesTrials) {
@@ -116,7 +118,7 @@ TEST(ResultRow, HasExactlyTheNamesOfTheContract) {
 }
 
 TEST(ResultRow, WritesUnknownNumbersAsNullAndEmpty) {
-  const ResultRow row = result_row({trial(0, "collision", 0.5, 3.0)});
+  const ResultRow row = result_row({trial(0, Outcome::collision, 0.5, 3.0)});
   const nlohmann::json json = nlohmann::json::parse(to_json_line(row));
   EXPECT_TRUE(json.at("travel_time_mean").is_null());
   EXPECT_TRUE(json.at("dynamic_distance_std").is_null());
@@ -130,9 +132,9 @@ TEST(ResultRow, WritesUnknownNumbersAsNullAndEmpty) {
 TEST(PairedRow, CountsTrialsThatBothRan) {
   std::vector<TrialRecord> b = some_trials();
   for (TrialRecord& record : b) record.key.method = "es2";
-  b[0].outcome = "collision";                   // only a
-  b[1].outcome = "success";                     // only b
-  b.push_back(trial(9, "success", 1.0, 30.0));  // not in a
+  b[0].outcome = Outcome::collision;                   // only a
+  b[1].outcome = Outcome::success;                     // only b
+  b.push_back(trial(9, Outcome::success, 1.0, 30.0));  // not in a
   const nlohmann::json json = nlohmann::json::parse(to_json_line(paired_row(some_trials(), b)));
   EXPECT_EQ(json.at("paired"), true);
   EXPECT_EQ(json.at("trials"), 4);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -19,23 +20,30 @@ class OutputError : public std::runtime_error {
 /// OutputError and leaves what was there before.
 void write_file_atomically(const std::filesystem::path& path, const std::string& text);
 
+/// The same, piece by piece: `next` gives the pieces of the text, and an empty one behind the last.
+void write_file_atomically(const std::filesystem::path& path, const std::function<std::string()>& next);
+
+/// Text of a file; empty when there is none.
+[[nodiscard]] std::string text_of_file(const std::filesystem::path& path);
+
 /// Throws OutputError unless a file of this name could be written now.
 void require_writable(const std::filesystem::path& path);
 
 /// A file that grows line by line. A line that does not fit on the disk is taken back whole.
 class LineFile {
  public:
-  /// Begins an empty file. Throws OutputError.
+  /// Goes on with a file, or begins it. Nobody else may be writing it this way: throws OutputError then, and
+  /// when it cannot be written.
   explicit LineFile(const std::filesystem::path& path);
-  /// Goes on with a file (a new one, when there is none) behind its first `keep` bytes; what follows them is
-  /// dropped. Nobody else may be writing it this way: throws OutputError then, and when it cannot be written.
-  LineFile(const std::filesystem::path& path, std::uintmax_t keep);
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Appends the text and a line feed. Throws OutputError; the file then ends with the line before.
-  void append(const std::string& line);
+  /// Drops all but the first `bytes`. Throws OutputError.
+  void cut(std::uintmax_t bytes);
+  /// Appends the text and a line feed; returns where the line begins. Throws OutputError; the file then ends
+  /// with the line before.
+  std::uintmax_t append(const std::string& line);
 
  private:
   std::filesystem::path path_;
@@ -46,13 +54,19 @@ enum class EarlierResults { remove, keep };
 
 class ResultsFolder {
  public:
-  /// Makes the folder and removes the results of an earlier run from it, by the names that this program
-  /// gives, unless they are to be kept; other files stay. Throws OutputError.
-  explicit ResultsFolder(std::filesystem::path folder, EarlierResults earlier = EarlierResults::remove);
+  /// Makes the folder. Throws OutputError, also when it cannot be written into.
+  explicit ResultsFolder(std::filesystem::path folder);
+
+  /// Removes what an earlier run has left beside trials.jsonl, by the names that this program gives; other
+  /// files stay. Throws OutputError.
+  void remove_earlier_results() const;
 
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& text) const {
     write_file_atomically(file(name), text);
+  }
+  void write(const std::string& name, const std::function<std::string()>& next) const {
+    write_file_atomically(file(name), next);
   }
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
 

@@ -5,16 +5,9 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <sstream>
 
 namespace spf {
 namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream{path, std::ios::binary}.rdbuf();
-  return text.str();
-}
 
 class ResultsFolderTest : public testing::Test {
  protected:
@@ -37,7 +30,7 @@ class ResultsFolderTest : public testing::Test {
 TEST_F(ResultsFolderTest, WritesWholeFilesAndLeavesNothingElse) {
   write_file_atomically(base_ / "a.txt", "first");
   write_file_atomically(base_ / "a.txt", "second");
-  EXPECT_EQ(text_of(base_ / "a.txt"), "second");
+  EXPECT_EQ(text_of_file(base_ / "a.txt"), "second");
   EXPECT_EQ(files_in(base_), 1u);
 }
 
@@ -61,17 +54,38 @@ TEST_F(ResultsFolderTest, ReportsAFullDisk) {
 TEST_F(ResultsFolderTest, LinesGrowAFile) {
   LineFile lines{base_ / "trials.jsonl"};
   lines.append("one");
-  EXPECT_EQ(text_of(base_ / "trials.jsonl"), "one\n");  // on the disk at once
+  EXPECT_EQ(text_of_file(base_ / "trials.jsonl"), "one\n");  // on the disk at once
   lines.append("two");
-  EXPECT_EQ(text_of(base_ / "trials.jsonl"), "one\ntwo\n");
+  EXPECT_EQ(text_of_file(base_ / "trials.jsonl"), "one\ntwo\n");
+}
+
+TEST_F(ResultsFolderTest, LinesHaveOneWriter) {
+  LineFile lines{base_ / "trials.jsonl"};
+  EXPECT_EQ(lines.append("one"), 0u);
+  EXPECT_EQ(lines.append("two"), 4u);
+  EXPECT_THAT([&] { LineFile{base_ / "trials.jsonl"}; },
+              testing::ThrowsMessage<OutputError>(testing::HasSubstr("is being written by another run")));
+  lines.cut(4);
+  EXPECT_EQ(lines.append("three"), 4u);
+  EXPECT_EQ(text_of_file(base_ / "trials.jsonl"), "one\nthree\n");
+}
+
+TEST_F(ResultsFolderTest, WritesPieceByPiece) {
+  int piece = 0;
+  write_file_atomically(base_ / "a.txt", [&] { return ++piece < 4 ? std::to_string(piece) : std::string{}; });
+  EXPECT_EQ(text_of_file(base_ / "a.txt"), "123");
+  const auto fails = []() -> std::string { throw OutputError{"no more"}; };
+  EXPECT_THROW(write_file_atomically(base_ / "a.txt", fails), OutputError);
+  EXPECT_EQ(text_of_file(base_ / "a.txt"), "123");
+  EXPECT_EQ(files_in(base_), 1u);
 }
 
 TEST_F(ResultsFolderTest, ClearsOnlyWhatThisProgramMade) {
-  for (const char* name : {"trials.jsonl", "summary.csv", "replay.html", "replay_trial_12.html"})
+  for (const char* name : {"run.json", "summary.csv", "replay.html", "replay_trial_12.html"})
     std::ofstream{base_ / name} << "old";
   for (const char* name : {"notes.txt", "replay_trial_.html", "replay_trial_x.html"})
     std::ofstream{base_ / name} << "mine";
-  const ResultsFolder folder{base_};
+  ResultsFolder{base_}.remove_earlier_results();
   EXPECT_EQ(files_in(base_), 3u);
   EXPECT_TRUE(std::filesystem::exists(base_ / "notes.txt"));
 }
@@ -79,7 +93,7 @@ TEST_F(ResultsFolderTest, ClearsOnlyWhatThisProgramMade) {
 TEST_F(ResultsFolderTest, MakesFoldersAndRefusesFiles) {
   const ResultsFolder folder{base_ / "a" / "b"};
   folder.write("scenario.yaml", "family: t2\n");
-  EXPECT_EQ(text_of(base_ / "a" / "b" / "scenario.yaml"), "family: t2\n");
+  EXPECT_EQ(text_of_file(base_ / "a" / "b" / "scenario.yaml"), "family: t2\n");
   std::ofstream{base_ / "file"} << "x";
   EXPECT_THROW(ResultsFolder{base_ / "file"}, OutputError);
   EXPECT_THROW(ResultsFolder{base_ / "file" / "below"}, OutputError);

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "config/input_problem.hpp"
 
@@ -24,7 +25,7 @@ TrialLog read_trial_log(const std::filesystem::path& path) {
     }
     try {
       log.records.push_back(trial_record_from_json(line, path.string(), number));
-      log.good_bytes += line.size() + 1;
+      log.starts.push_back(std::exchange(log.good_bytes, log.good_bytes + line.size() + 1));
     } catch (const InputError&) {
       if (file.peek() != std::ifstream::traits_type::eof()) throw;
       log.torn = true;

@@ -10,9 +10,10 @@
 namespace spf {
 
 struct TrialLog {
-  std::vector<TrialRecord> records;  ///< in the order of the file
-  std::uintmax_t good_bytes = 0;     ///< of whole lines; what follows was cut off in writing
-  bool torn = false;                 ///< there is something behind them
+  std::vector<TrialRecord> records;    ///< in the order of the file
+  std::vector<std::uintmax_t> starts;  ///< where the line of each record begins [byte]
+  std::uintmax_t good_bytes = 0;       ///< of whole lines; what follows was cut off in writing
+  bool torn = false;                   ///< there is something behind them
 };
 
 /// Reads the trials of a file; an absent file has none. A last line that is not whole (the program was

@@ -19,7 +19,7 @@ class TrialLogTest : public testing::Test {
   static std::string line(int number) {
     TrialRecord record;
     record.key = {"t2", "orca", "walk", 1.0, "full", 7, number, "calm"};
-    record.outcome = "collision";
+    record.outcome = sim::TrialOutcome::collision;
     record.failure = "robot 1 touched disc 3";
     record.setup = "00ff";
     record.cause = CauseRecord{1, "unsafe", 0.25, "moving", 3};

@@ -105,6 +105,13 @@ CrossingRecord crossing_from_json(const Json& json) {
   return crossing;
 }
 
+sim::TrialOutcome outcome_at(const Json& json) {
+  const std::string name = json.at("outcome").get<std::string>();
+  for (const auto& [outcome, known] : EnumNames<sim::TrialOutcome>::values)
+    if (name == known) return outcome;
+  throw Json::other_error::create(501, "outcome '" + name + "' is not known", nullptr);
+}
+
 TrialRecord record_from_json(const Json& json) {
   TrialRecord record;
   record.key.family = json.at("family").get<std::string>();
@@ -121,7 +128,7 @@ TrialRecord record_from_json(const Json& json) {
   if (json.contains("wheel_share")) record.wheel_share = number_at(json, "wheel_share");
   if (json.contains("crossings")) record.crossing = crossing_from_json(json);
   if (json.contains("cause")) record.cause = cause_from_json(json.at("cause"));
-  record.outcome = json.at("outcome").get<std::string>();
+  record.outcome = outcome_at(json);
   record.failure = json.at("failure").get<std::string>();
   if (!json.at("contact").is_null()) record.contact = contact_from_json(json.at("contact"));
   record.contacts = json.at("contacts").get<int>();
@@ -149,7 +156,7 @@ std::string to_json_line(const TrialRecord& record) {
             {"tracking", record.key.tracking},
             {"seed", record.key.seed},
             {"trial", record.key.trial},
-            {"outcome", record.outcome},
+            {"outcome", enum_name(record.outcome)},
             {"failure", record.failure},
             {"contact", record.contact ? to_json(*record.contact) : Json(nullptr)},
             {"contacts", record.contacts},

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/duration_histogram.hpp"
+#include "sim/trial_result.hpp"
 
 namespace spf {
 
@@ -71,8 +72,8 @@ struct CrossingRecord {
 
 struct TrialRecord {
   TrialKey key;
-  std::string setup;    ///< of a campaign: hash over all settings of the trial but its number
-  std::string outcome;  ///< success, collision, overtime
+  std::string setup;  ///< hash over all settings of the trial but its number
+  sim::TrialOutcome outcome = sim::TrialOutcome::overtime;
   std::optional<ContactRecord> contact;
   int contacts = 0;                        ///< in all, where contacts do not end a trial
   int hits_while_standing = 0;             ///< by recorded people who do not react
@@ -83,18 +84,19 @@ struct TrialRecord {
   double dynamic_clearance = kNotKnown;  ///< [m] the same minus radii
   std::vector<RobotRecord> robots;
   std::string failure;               ///< why it failed, in words; empty after a success
-  std::optional<CauseRecord> cause;  ///< of a failed trial of a campaign
+  std::optional<CauseRecord> cause;  ///< of a failed trial
   double wheel_share =
-      kNotKnown;       ///< [1] of a campaign: largest wheel speed over its limit, in frames of 0.1 s
+      kNotKnown;       ///< [1] largest wheel speed over its limit, in frames of 0.1 s; unknown without wheels
   std::string digest;  ///< hash over the bits of all positions, in hexadecimal digits
 
   // Timings: the only fields that differ between runs.
-  DurationHistogram plan_time;     ///< [s] of each planning call
-  DurationHistogram control_time;  ///< [s] of each control tick
-  double wall_time = 0.0;          ///< [s] of the whole trial
-  // Of a campaign:
+  DurationHistogram plan_time;       ///< [s] of each planning call
+  DurationHistogram control_time;    ///< [s] of each control tick
+  double wall_time = 0.0;            ///< [s] of the whole trial
   DurationHistogram new_plan_time;   ///< [s] of the planning calls that looked for a new plan
   DurationHistogram optimiser_time;  ///< [s] of each optimiser call: such a planning call over its number
+
+  [[nodiscard]] bool succeeded() const { return outcome == sim::TrialOutcome::success; }
 };
 
 /// One line of JSON without its line feed. Unknown numbers read null.

@@ -5,6 +5,7 @@ Arrows: an #include from the repository's root must be covered by the DEPENDS of
 other rooms (in tests by TEST_DEPENDS too); rooms form no circle; a core room uses core rooms and Eigen alone.
 Purity: the sources of spf/ hold no file, stream, clock, thread, outside randomness, changeable static or global, and
 no ROS. spf/testing is free of this, and so are tests: what is named *_test or lies in a folder called test.
+Threads: outside tests, room `parallel` alone starts and guards them.
 Prints FILE:LINE: sentence for each breach; exit status 1 if there is one.
 """
 import functools
@@ -16,6 +17,11 @@ from pathlib import Path
 CORE = "spf"
 SKIPPED_FOLDERS = {"build", "node_modules", ".git", "results"}
 SOURCE_SUFFIXES = {".cpp", ".hpp"}
+
+# Threads belong to one room; the others hand it their jobs.
+THREADS_ROOM = "parallel"
+THREAD_HEADERS = {"thread", "mutex", "shared_mutex", "atomic", "condition_variable", "future", "latch", "barrier",
+                  "semaphore", "stop_token"}
 
 FORBIDDEN_HEADERS = {
     "fstream": "files belong to hosts", "iostream": "printing belongs to hosts", "ostream": "printing belongs to hosts",
@@ -178,6 +184,8 @@ def check_includes(rooms, room, file, code):
             yield f'{where}: includes "{header}", which is not written from the root of the repository'
         elif room.is_pure and not is_test(file):
             yield from check_foreign_header(where, header)
+        elif header in THREAD_HEADERS and not (room.is_core or room.name == THREADS_ROOM or is_test(file)):
+            yield f"{where}: includes <{header}>; threads belong to room {THREADS_ROOM} alone"
 
 
 def check_foreign_header(where, header):

@@ -82,6 +82,17 @@ class Arrows(Copy):
         self.assert_caught("spf/robot/CMakeLists.txt", "spf_room(robot DEPENDS spf::math spf::host)\n", 1, "no core room")
 
 
+    def test_threads_belong_to_one_room(self):
+        for name in ("parallel", "sim"):
+            (self.root / name).mkdir()
+            (self.root / name / "CMakeLists.txt").write_text(f"spf_room({name} DEPENDS spf::math)\n", encoding="utf-8")
+        text = "#include <thread>\n"
+        self.assert_caught("sim/probe.cpp", text, 1, "room parallel alone")
+        (self.root / "sim/probe.cpp").unlink()
+        self.assert_passes("sim/probe_test.cpp", text)
+        self.assert_passes("parallel/probe.cpp", text)
+
+
 class Purity(Copy):
     def test_breaches_are_caught(self):
         for text, line, words in [

@@ -38,8 +38,7 @@ void take_nearer(RecordedClearance& clearance, double distance, int other) {
   if (distance < clearance.distance) clearance = {distance, other};
 }
 
-void measure_clearances(const Recorder::View& view, std::size_t robot, double radius,
-                        RecordedRobot& recorded) {
+void measure_clearances(const TrialFrame& view, std::size_t robot, double radius, RecordedRobot& recorded) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const Eigen::Vector2d& place = recorded.pose.position_world;
   recorded.to_mover = recorded.to_peer = {kNone, -1};
@@ -70,7 +69,7 @@ Recorder::Recorder(const Scenario& scenario, const GridFrame& map_frame)
   recording_->map_frame = map_frame;
 }
 
-void Recorder::frame(const View& view) {
+void Recorder::frame(const TrialFrame& view) {
   RecordedFrame frame;
   frame.time = view.time;
   for (std::size_t i = 0; i < view.robots->size(); ++i) {
@@ -102,7 +101,7 @@ void Recorder::frame(const View& view) {
   recording_->frames.push_back(std::move(frame));
 }
 
-void Recorder::plan(double time, const RobotAgent& agent, double plan_ms) {
+void Recorder::planned(double time, const RobotAgent& agent, double plan_ms) {
   const PlanResult& result = agent.last_plan();
   RecordedPlan plan;
   plan.time = time;
@@ -118,14 +117,22 @@ void Recorder::plan(double time, const RobotAgent& agent, double plan_ms) {
   recording_->plans.push_back(std::move(plan));
 }
 
-void Recorder::contact(const Contact& contact, RecordedEvent::Kind kind) {
+void Recorder::contact(const Contact& contact) {
+  note_contact(contact, RecordedEvent::Kind::contact);
+}
+
+void Recorder::hit_while_standing(const Contact& contact) {
+  note_contact(contact, RecordedEvent::Kind::hit_while_standing);
+}
+
+void Recorder::note_contact(const Contact& contact, RecordedEvent::Kind kind) {
   std::string text = to_string(contact.with);
   if (contact.other >= 0) text += " " + std::to_string(contact.other);
   recording_->events.push_back(
       {contact.time, contact.robot, kind, text, contact.other, contact.position_world});
 }
 
-void Recorder::arrival(double time, int robot, const Eigen::Vector2d& position_world) {
+void Recorder::arrived(double time, int robot, const Eigen::Vector2d& position_world) {
   recording_->events.push_back({time, robot, RecordedEvent::Kind::arrival, "arrived", -1, position_world});
 }
 

@@ -1,5 +1,4 @@
-// Writes a Recording while a trial runs. Looks on only: a recorded trial goes the same way as an unrecorded
-// one.
+// Writes a Recording while a trial runs.
 #pragma once
 
 #include <cstdint>
@@ -7,36 +6,25 @@
 #include <unordered_set>
 #include <vector>
 
-#include "sim/contact_monitor.hpp"
 #include "sim/recording.hpp"
-#include "sim/robot_truth.hpp"
+#include "sim/trial_listener.hpp"
 
 namespace spf::sim {
 
-class Recorder {
+class Recorder : public TrialListener {
  public:
   Recorder(const Scenario& scenario, const GridFrame& map_frame);
 
-  /// What a frame is made of, beside the agents.
-  struct View {
-    double time = 0.0;
-    double share = 0.0;  ///< of the movers' step
-    const std::vector<RobotTruth>* robots = nullptr;
-    const std::vector<Mover>* movers = nullptr;
-    const std::vector<RobotAgent>* agents = nullptr;
-    const std::vector<Eigen::Vector3d>* wheel_speeds = nullptr;    ///< [m/s] true
-    const std::vector<Eigen::Vector3d>* wheel_commands = nullptr;  ///< [m/s]
-    const std::vector<double>* control_us = nullptr;
-    const StaticShapes* shapes = nullptr;
-  };
-  void frame(const View& view);
-  void plan(double time, const RobotAgent& agent, double plan_ms);
-  void contact(const Contact& contact, RecordedEvent::Kind kind);
-  void arrival(double time, int robot, const Eigen::Vector2d& position_world);
+  void frame(const TrialFrame& view) override;
+  void planned(double time, const RobotAgent& agent, double plan_ms) override;
+  void contact(const Contact& contact) override;
+  void hit_while_standing(const Contact& contact) override;
+  void arrived(double time, int robot, const Eigen::Vector2d& position_world) override;
 
   [[nodiscard]] std::shared_ptr<const Recording> take() { return std::move(recording_); }
 
  private:
+  void note_contact(const Contact& contact, RecordedEvent::Kind kind);
   void note_status(double time, int robot, const AgentStatus& status, const Eigen::Vector2d& position_world);
   void note_cells(double time, int robot, const OccupancyMap& map);
 

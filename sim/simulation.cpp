@@ -1,6 +1,7 @@
 #include "sim/simulation.hpp"
 
 #include <deque>
+#include <utility>
 
 #include "sim/radio.hpp"
 #include "sim/recorder.hpp"
@@ -24,8 +25,8 @@ struct Simulation::Implementation {
   void track(std::size_t robot);
   void deliver_observations(std::size_t robot);
   void place_ideally();
-  void record_frame();
-  void record_events();
+  void tell_frame();
+  void tell_events();
   [[nodiscard]] TrialResult result();
 
   [[nodiscard]] double now() const { return world.time(); }
@@ -38,10 +39,11 @@ struct Simulation::Implementation {
   World world;
   std::vector<RobotAgent> agents;
   OmniKinematics kinematics;
-  std::vector<Eigen::Vector3d> wheel_speeds;  // [m/s] true; filled for recordings
+  std::vector<Eigen::Vector3d> wheel_speeds;  // [m/s] true; filled for listeners
   Radio radio;
   AgentMeter meter;
   std::unique_ptr<Recorder> recorder;
+  std::vector<TrialListener*> listeners;  // the recorder among them
 
   // Inputs of the agents, kept for their memory.
   std::vector<AgentInput> pose_inputs;
@@ -70,6 +72,8 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
   parameters.team.keep_candidates = parameters.team.keep_candidates || options.record;
   const OccupancyMap map = robot_map(scenario, parameters.occupancy);
   if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame());
+  for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
+    if (listener != nullptr) listeners.push_back(listener);
   const std::size_t count = scenario.robots.size();
   for (std::size_t i = 0; i < count; ++i) {
     const RobotTask& task = scenario.robots[i];
@@ -164,7 +168,7 @@ void Simulation::Implementation::plan(std::size_t robot, double started) {
   if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * seconds));
   meter.planned(static_cast<int>(robot), agent.last_plan());
   if (told) radio.send(now(), *told, world.positions()[robot]);
-  if (recorder) recorder->plan(now(), agent, 1e3 * seconds);
+  for (TrialListener* listener : listeners) listener->planned(now(), agent, 1e3 * seconds);
 }
 
 void Simulation::Implementation::track(std::size_t robot) {
@@ -179,7 +183,7 @@ void Simulation::Implementation::track(std::size_t robot) {
 void Simulation::Implementation::end() {
   if (ideal()) place_ideally();
   world.end_tick();
-  if (recorder) record_events();
+  tell_events();
 }
 
 /// Every robot will be at its trajectory's point when the tick ends.
@@ -194,17 +198,20 @@ void Simulation::Implementation::place_ideally() {
   }
 }
 
-void Simulation::Implementation::record_events() {
-  for (; contacts_seen < world.contacts().size(); ++contacts_seen)
-    recorder->contact(world.contacts()[contacts_seen], RecordedEvent::Kind::contact);
-  for (; hits_seen < world.hits_while_standing().size(); ++hits_seen)
-    recorder->contact(world.hits_while_standing()[hits_seen], RecordedEvent::Kind::hit_while_standing);
-  for (const int robot : world.arrivals())
-    recorder->arrival(now(), robot, world.positions()[static_cast<std::size_t>(robot)]);
+void Simulation::Implementation::tell_events() {
+  const std::size_t contacts_before = std::exchange(contacts_seen, world.contacts().size());
+  const std::size_t hits_before = std::exchange(hits_seen, world.hits_while_standing().size());
+  for (TrialListener* listener : listeners) {
+    for (std::size_t i = contacts_before; i < contacts_seen; ++i) listener->contact(world.contacts()[i]);
+    for (std::size_t i = hits_before; i < hits_seen; ++i)
+      listener->hit_while_standing(world.hits_while_standing()[i]);
+    for (const int robot : world.arrivals())
+      listener->arrived(now(), robot, world.positions()[static_cast<std::size_t>(robot)]);
+  }
 }
 
-void Simulation::Implementation::record_frame() {
-  if (!recorder) return;
+void Simulation::Implementation::tell_frame() {
+  if (listeners.empty()) return;
   const std::vector<RobotTruth>& robots = world.robots();
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (ideal()) {
@@ -215,8 +222,9 @@ void Simulation::Implementation::record_frame() {
       wheel_speeds[i] = world.plant(static_cast<int>(i)).wheel_speeds();
     }
   }
-  recorder->frame({now(), world.share(), &robots, &world.movers(), &agents, &wheel_speeds, &world.commands(),
-                   &last_control_us, &world.shapes()});
+  const TrialFrame frame{now(),         world.share(),     &robots,          &world.movers(), &agents,
+                         &wheel_speeds, &world.commands(), &last_control_us, &world.shapes()};
+  for (TrialListener* listener : listeners) listener->frame(frame);
 }
 
 TrialResult Simulation::Implementation::result() {
@@ -244,7 +252,7 @@ TrialResult Simulation::run() {
       self.observe();
       self.think();
     }
-    if (self.world.step_due()) self.record_frame();
+    if (self.world.step_due()) self.tell_frame();
     self.end();
   }
   TrialResult result = self.result();

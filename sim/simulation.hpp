@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "sim/scenario.hpp"
+#include "sim/trial_listener.hpp"
 #include "sim/trial_result.hpp"
 #include "spf/team/agent_parameters.hpp"
 
@@ -18,6 +19,7 @@ struct SimulationOptions {
   std::function<double()> clock;
   /// Called every 0.1 simulated seconds with the time [s]; false ends the trial (as overtime).
   std::function<bool(double)> progress;
+  TrialListener* listener = nullptr;  ///< told of what happens; must outlive the simulation
 };
 
 class Simulation {

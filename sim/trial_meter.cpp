@@ -16,18 +16,6 @@ std::uint64_t bits_of(double value) {
 
 }  // namespace
 
-const char* to_string(TrialOutcome outcome) {
-  switch (outcome) {
-    case TrialOutcome::success:
-      return "success";
-    case TrialOutcome::collision:
-      return "collision";
-    case TrialOutcome::overtime:
-      return "overtime";
-  }
-  return "?";
-}
-
 TrialMeter::TrialMeter(const Scenario& scenario)
     : tasks_{scenario.robots},
       robot_{scenario.robot},

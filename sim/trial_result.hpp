@@ -4,17 +4,35 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/contact.hpp"
 #include "sim/recording.hpp"
+#include "spf/math/parameters.hpp"
 #include "spf/team/robot_agent.hpp"
 
 namespace spf::sim {
 
 enum class TrialOutcome { success, collision, overtime };
-[[nodiscard]] const char* to_string(TrialOutcome outcome);
+
+}  // namespace spf::sim
+
+namespace spf {
+template <>
+struct EnumNames<sim::TrialOutcome> {
+  static constexpr std::array<std::pair<sim::TrialOutcome, const char*>, 3> values{
+      {{sim::TrialOutcome::success, "success"},
+       {sim::TrialOutcome::collision, "collision"},
+       {sim::TrialOutcome::overtime, "overtime"}}};
+};
+}  // namespace spf
+
+namespace spf::sim {
+
+[[nodiscard]] inline const char* to_string(TrialOutcome outcome) {
+  return enum_name(outcome);
+}
 
 inline constexpr std::size_t kStandReasons = static_cast<std::size_t>(StandReason::paused) + 1;
 

@@ -1,24 +1,16 @@
-#include "experiments/study_run.hpp"
+#include "experiments/trial_run.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "experiments/hexadecimal.hpp"
+#include "experiments/trial_watch.hpp"
 #include "report/table.hpp"
 #include "sim/simulation.hpp"
-#include "sim/trials.hpp"
 
 namespace spf {
 namespace {
-
-std::string hexadecimal(std::uint64_t value) {
-  std::array<char, 16> digits;
-  const std::to_chars_result end = std::to_chars(digits.data(), digits.data() + digits.size(), value, 16);
-  const std::string text{digits.data(), end.ptr};
-  return std::string(16 - text.size(), '0') + text;
-}
 
 double finite_or_unknown(double value) {
   return std::isfinite(value) ? value : kNotKnown;
@@ -56,18 +48,6 @@ std::string overtime_text(const sim::TrialResult& result) {
   return text.empty() ? "stopped before the end" : text;
 }
 
-/// Ends trials under way from inside; run_study alone throws and catches it.
-struct Stopped {};
-
-/// A clock that ends the trial which reads it, once told to stop: the simulator reads it at every step.
-std::function<double()> stopping_clock(const StudyRequest& request) {
-  if (!request.clock || !request.stop) return request.clock;
-  return [&request] {
-    if (request.stop()) throw Stopped{};
-    return request.clock();
-  };
-}
-
 RobotRecord robot_record(const sim::RobotResult& robot) {
   RobotRecord record;
   record.arrived = robot.arrived;
@@ -93,28 +73,17 @@ CrossingRecord crossing_of(const sim::TrialResult& result) {
   return crossing;
 }
 
-}  // namespace
-
-TrialKey key_of(const Study& study, int trial) {
-  const sim::SimulationParameters& simulation = study.simulation;
-  return {enum_name(study.family),
-          enum_name(study.method),
-          enum_name(simulation.noise.model),
-          simulation.noise.level,
-          enum_name(simulation.trial.tracking),
-          study.seed,
-          trial,
-          ""};
-}
-
-TrialRecord record_of(const Study& study, const sim::TrialResult& result) {
+/// What is kept of a trial's result and of what was seen meanwhile.
+TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const TrialWatch& watch) {
   TrialRecord record;
-  record.key = key_of(study, result.trial);
-  record.outcome = to_string(result.outcome);
+  record.key = cell.key;
+  record.key.trial = result.trial;
+  record.setup = cell.setup;
+  record.outcome = result.outcome;
   if (!result.contacts.empty()) record.contact = contact_of(result.contacts.front());
   record.contacts = static_cast<int>(result.contacts.size());
   record.hits_while_standing = static_cast<int>(result.hits_while_standing.size());
-  if (study.recording) record.crossing = crossing_of(result);
+  if (cell.study.recording) record.crossing = crossing_of(result);
   record.sim_time = result.sim_seconds;
   record.dynamic_distance = finite_or_unknown(result.dynamic_distance);
   record.dynamic_clearance = finite_or_unknown(result.dynamic_clearance);
@@ -122,53 +91,36 @@ TrialRecord record_of(const Study& study, const sim::TrialResult& result) {
   if (result.outcome == sim::TrialOutcome::collision && record.contact)
     record.failure = contact_text(*record.contact);
   if (result.outcome == sim::TrialOutcome::overtime) record.failure = overtime_text(result);
+  record.cause = watch.cause_of(result);
+  if (cell.study.simulation.trial.tracking == sim::TrackingMode::full)  // else nothing drives wheels
+    record.wheel_share = watch.largest_wheel_speed() / cell.study.robot.max_wheel_speed;
   record.digest = hexadecimal(result.digest);
   for (const float duration : result.plan_ms) record.plan_time.add(1e-3 * static_cast<double>(duration));
   for (const float duration : result.control_us)
     record.control_time.add(1e-6 * static_cast<double>(duration));
+  record.new_plan_time = watch.new_plan_time();
+  record.optimiser_time = watch.optimiser_time();
   record.wall_time = result.wall_seconds;
   return record;
 }
 
-std::vector<TrialRecord> run_study(const Study& study, const StudyRequest& request) {
-  std::vector<TrialRecord> records;
-  sim::TrialsRequest trials;
-  trials.scenario = [&study](int trial) { return make_trial(study, trial); };
-  trials.agent = agent_parameters(study);
-  trials.first = request.first;
-  trials.count = request.trials;
-  trials.jobs = request.jobs;
-  trials.clock = stopping_clock(request);
-  trials.progress = [&](const sim::TrialResult& result, int done) {
-    records.push_back(record_of(study, result));
-    return !request.progress || request.progress(records.back(), done);
-  };
-  try {
-    static_cast<void>(sim::run_trials(trials));
-  } catch (const Stopped&) {
-    // What has ended is in `records`.
-  }
-  std::sort(records.begin(), records.end(),
-            [](const TrialRecord& a, const TrialRecord& b) { return a.key.trial < b.key.trial; });
-  return records;
-}
+}  // namespace
 
-RecordedTrial run_single(const Study& study, const SingleRequest& request) {
-  RecordedTrial trial;
-  sim::SimulationOptions options;
-  options.record = request.record;
-  options.clock = request.clock;
-  options.progress = [&](double time) {
-    trial.stopped = request.progress && !request.progress(time);
-    return !trial.stopped;
-  };
-  AgentParameters agent = agent_parameters(study);
-  agent.team.keep_candidates = agent.team.keep_candidates || request.record;
-  sim::TrialResult result = sim::Simulation{make_trial(study, request.trial), agent, options}.run();
-  result.trial = request.trial;
-  trial.record = record_of(study, result);
-  trial.recording = result.recording;
-  return trial;
+FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options) {
+  FinishedTrial finished;
+  const sim::Scenario scenario = make_trial(cell.study, trial);
+  TrialWatch watch{scenario.robots.size()};
+  sim::SimulationOptions simulation;
+  simulation.record = options.record;
+  simulation.clock = options.clock;
+  simulation.listener = &watch;
+  if (options.progress)
+    simulation.progress = [&](double time) { return !(finished.stopped = !options.progress(time)); };
+  sim::TrialResult result = sim::Simulation{scenario, agent_parameters(cell.study), simulation}.run();
+  result.trial = trial;
+  finished.record = record_of(cell, result, watch);
+  finished.recording = result.recording;
+  return finished;
 }
 
 }  // namespace spf

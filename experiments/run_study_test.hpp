@@ -1,0 +1,27 @@
+// What tests run: all trials of one study.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "experiments/campaign_run.hpp"
+#include "experiments/trial_store.hpp"
+
+namespace spf {
+
+/// Records by trial.
+inline std::vector<TrialRecord> run_study(const Study& study, int first, int trials,
+                                          CampaignRequest request = {}) {
+  const CampaignPlan plan = single_cell(study, first, trials);
+  TrialStore store{plan};
+  request.trials = trials_of(plan);
+  const auto told = request.finished;
+  request.finished = [&](TrialRecord record) {
+    store.add(record);
+    if (told) told(std::move(record));
+  };
+  run_campaign(plan, request);
+  return store.finish();
+}
+
+}  // namespace spf

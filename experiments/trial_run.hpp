@@ -1,0 +1,32 @@
+// Runs one trial of a cell and condenses it to its record: the only way in which the program runs trials.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "experiments/campaign.hpp"
+#include "experiments/trial_record.hpp"
+#include "sim/recording.hpp"
+
+namespace spf {
+
+struct TrialOptions {
+  bool record = false;            ///< keep everything that a replay shows
+  std::function<double()> clock;  ///< [s] steady, callable from any thread; none: nothing is timed
+  /// Called every 0.1 simulated seconds with the time [s]; false stops the trial.
+  std::function<bool(double)> progress;
+};
+
+struct FinishedTrial {
+  TrialRecord record;
+  std::shared_ptr<const sim::Recording> recording;  ///< null unless asked for
+  bool stopped = false;                             ///< by `progress`, before the trial's own end
+};
+
+/// Runs a trial, which goes the same way recorded or not. Throws std::invalid_argument or std::runtime_error,
+/// with the reason, when it cannot be run.
+[[nodiscard]] FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options = {});
+
+}  // namespace spf

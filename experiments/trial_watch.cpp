@@ -1,0 +1,53 @@
+#include "experiments/trial_watch.hpp"
+
+#include <algorithm>
+
+namespace spf {
+
+void TrialWatch::frame(const sim::TrialFrame& frame) {
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    robots_[i].status = (*frame.agents)[i].status();
+    largest_wheel_speed_ = std::max({largest_wheel_speed_, (*frame.wheel_speeds)[i].cwiseAbs().maxCoeff(),
+                                     (*frame.wheel_commands)[i].cwiseAbs().maxCoeff()});
+  }
+}
+
+void TrialWatch::planned(double time, const RobotAgent& agent, double plan_ms) {
+  const PlanResult& plan = agent.last_plan();
+  Robot& robot = robots_[static_cast<std::size_t>(agent.robot_id())];
+  robot.plan = plan.outcome;
+  robot.plan_time = time;
+  if (!(plan_ms > 0.0) || plan.stats.optimiser_calls + plan.stats.manoeuvres == 0) return;
+  new_plan_time_.add(1e-3 * plan_ms);
+  if (plan.stats.optimiser_calls > 0) optimiser_time_.add(1e-3 * plan_ms / plan.stats.optimiser_calls);
+}
+
+void TrialWatch::contact(const sim::Contact& contact) {
+  if (!of_first_contact_) of_first_contact_ = cause(contact.robot, contact.time);
+}
+
+std::optional<CauseRecord> TrialWatch::cause_of(const sim::TrialResult& result) const {
+  if (result.outcome == sim::TrialOutcome::success) return std::nullopt;
+  if (result.outcome == sim::TrialOutcome::collision) return of_first_contact_;
+  for (std::size_t i = 0; i < result.robots.size(); ++i)
+    if (!result.robots[i].in_time) return cause(static_cast<int>(i), result.sim_seconds);
+  return std::nullopt;
+}
+
+CauseRecord TrialWatch::cause(int robot, double time) const {
+  const Robot& known = robots_[static_cast<std::size_t>(robot)];
+  CauseRecord cause;
+  cause.robot = robot;
+  if (known.plan) {
+    cause.last_plan = to_string(*known.plan);
+    cause.plan_age = std::max(0.0, time - known.plan_time);
+  }
+  if (known.status) {
+    cause.stand_reason =
+        known.status->reason == StandReason::none ? "moving" : to_string(known.status->reason);
+    cause.culprit = known.status->culprit;
+  }
+  return cause;
+}
+
+}  // namespace spf

@@ -1,0 +1,48 @@
+// Looks on while a trial runs, and keeps what its record tells beside the result: what the robots were about,
+// how long planning took, and how near the wheels came to their limit. A few numbers a robot, however long it
+// runs.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "experiments/trial_record.hpp"
+#include "sim/trial_listener.hpp"
+#include "sim/trial_result.hpp"
+
+namespace spf {
+
+class TrialWatch : public sim::TrialListener {
+ public:
+  explicit TrialWatch(std::size_t robots) : robots_(robots) {}
+
+  void frame(const sim::TrialFrame& frame) override;
+  void planned(double time, const RobotAgent& agent, double plan_ms) override;
+  void contact(const sim::Contact& contact) override;
+
+  /// What the robot was about that made the first contact, or else the first that is not home at the end.
+  /// None after a success.
+  [[nodiscard]] std::optional<CauseRecord> cause_of(const sim::TrialResult& result) const;
+  [[nodiscard]] double largest_wheel_speed() const {
+    return largest_wheel_speed_;
+  }  ///< [m/s] true or commanded
+  /// [s] of the planning calls that looked for a new plan: most only find that the plan is still good.
+  [[nodiscard]] const DurationHistogram& new_plan_time() const { return new_plan_time_; }
+  /// [s] of each optimiser call: such a planning call over its number of them.
+  [[nodiscard]] const DurationHistogram& optimiser_time() const { return optimiser_time_; }
+
+ private:
+  struct Robot {
+    std::optional<PlanOutcome> plan;
+    double plan_time = 0.0;  // [s]
+    std::optional<AgentStatus> status;
+  };
+  [[nodiscard]] CauseRecord cause(int robot, double time) const;
+
+  std::vector<Robot> robots_;
+  std::optional<CauseRecord> of_first_contact_;
+  double largest_wheel_speed_ = 0.0;
+  DurationHistogram new_plan_time_, optimiser_time_;
+};
+
+}  // namespace spf

@@ -1,0 +1,44 @@
+// Those who look on while a trial runs: the recorder of replays, and meters of a caller's own. A trial that
+// is listened to goes the same way as any other. Frame: world, SI.
+#pragma once
+
+#include <vector>
+
+#include "sim/contact.hpp"
+#include "sim/movers.hpp"
+#include "sim/robot_truth.hpp"
+#include "spf/team/robot_agent.hpp"
+
+namespace spf::sim {
+
+/// The moment at which robots have thought and not yet moved; by robot unless said otherwise.
+struct TrialFrame {
+  double time = 0.0;   ///< [s]
+  double share = 0.0;  ///< of the movers' step
+  const std::vector<RobotTruth>* robots = nullptr;
+  const std::vector<Mover>* movers = nullptr;
+  const std::vector<RobotAgent>* agents = nullptr;
+  const std::vector<Eigen::Vector3d>* wheel_speeds = nullptr;    ///< [m/s] true
+  const std::vector<Eigen::Vector3d>* wheel_commands = nullptr;  ///< [m/s]
+  const std::vector<double>* control_us = nullptr;  ///< [us] of the last control tick, 0 without a clock
+  const StaticShapes* shapes = nullptr;
+};
+
+/// All calls come from the thread that runs the trial, in the order of time.
+class TrialListener {
+ public:
+  virtual ~TrialListener() = default;
+
+  /// Every 0.1 s.
+  virtual void frame(const TrialFrame&) {}
+  /// A robot has planned, which took `plan_ms` [ms] (0 without a clock); what came of it is the agent's
+  /// last_plan().
+  virtual void planned(double /*time*/, const RobotAgent&, double /*plan_ms*/) {}
+  /// Robots touched something, by time.
+  virtual void contact(const Contact&) {}
+  /// A person of a recording, who does not react, walked into a robot that stood still.
+  virtual void hit_while_standing(const Contact&) {}
+  virtual void arrived(double /*time*/, int /*robot*/, const Eigen::Vector2d& /*position_world*/) {}
+};
+
+}  // namespace spf::sim
