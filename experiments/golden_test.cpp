@@ -18,7 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study_run.hpp"
+#include "experiments/run_study_test.hpp"
+#include "parallel/worker_pool.hpp"
 #include "report/table.hpp"
 #include "spf/testing/source_dir.hpp"
 #include "study/scenario_file.hpp"
@@ -113,7 +114,7 @@ GoldenRow row_of(const std::vector<TrialRecord>& records) {
   double sum = 0.0;
   int arrived = 0;
   for (const TrialRecord& record : records) {
-    row.outcomes += record.outcome.front();
+    row.outcomes += *enum_name(record.outcome);
     for (const char letter : record.digest)
       digest = (digest ^ static_cast<unsigned char>(letter)) * 1099511628211U;
     for (const RobotRecord& robot : record.robots) {
@@ -166,10 +167,9 @@ TEST_P(GoldenSlow, BehaviourIsAsRecorded) {
     std::vector<Setting> settings = GetParam().settings;
     settings.push_back({std::string{"method="} + name});
     const Study study = read_study(source_dir() + "/scenarios/" + GetParam().family + ".yaml", settings);
-    StudyRequest request;
-    request.trials = GetParam().trials;
-    request.jobs = renewed_file() != nullptr ? 0 : 1;
-    const GoldenRow row = row_of(run_study(study, request));
+    CampaignRequest request;
+    request.jobs = thread_count(renewed_file() != nullptr ? 0 : 1);
+    const GoldenRow row = row_of(run_study(study, 0, GetParam().trials, request));
     rows_.push_back(row);
     const std::string changed = difference(golden, row, platform());
     if (!changed.empty()) differences += changed + "\n";
