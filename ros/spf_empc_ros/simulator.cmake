@@ -13,7 +13,8 @@ if(CATKIN_ENABLE_TESTING)
   add_executable(spf_empc_simulator_tests
     test/package_files_test.cpp test/simulated_bases_test.cpp test/simulator_messages_test.cpp test/simulator_pace_test.cpp)
   spf_ros_options(spf_empc_simulator_tests)
-  target_compile_definitions(spf_empc_simulator_tests PRIVATE SPF_EMPC_ROS_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+  set_source_files_properties(test/package_files_test.cpp PROPERTIES COMPILE_DEFINITIONS
+    SPF_EMPC_ROS_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
   target_link_libraries(spf_empc_simulator_tests PRIVATE spf_empc_simulator GTest::gtest GTest::gtest_main)
   include(GoogleTest)
   gtest_discover_tests(spf_empc_simulator_tests DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ros TIMEOUT 300)
