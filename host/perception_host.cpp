@@ -54,9 +54,8 @@ bool PerceptionHost::refuse(ObservationVerdict verdict) {
 std::optional<SensedWorld> PerceptionHost::add_scan(double time, const RangeScan& scan,
                                                     const Pose2& sensor_in_body, double now) {
   if (clock_.jumped(now)) meet_clock_jump();
-  if (refuse(sensible(scan) && !blind(scan) ? judge(time, scan_time_, clock_.now())
-                                            : ObservationVerdict::malformed))
-    return {};
+  const bool makes_sense = sensible(scan) && sensible(sensor_in_body) && !blind(scan);
+  if (refuse(makes_sense ? judge(time, scan_time_, clock_.now()) : ObservationVerdict::malformed)) return {};
   scan_time_ = time;
   SensedWorld sensed;
   sensed.observation.time = time;

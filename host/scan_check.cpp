@@ -8,16 +8,28 @@
 #include "spf/math/angles.hpp"
 
 namespace spf::host {
+namespace {
+
+constexpr double kLargest = 100.0;  // [m] of anything that is a robot or an obstacle
+
+}  // namespace
 
 bool sensible(const RangeScan& scan) {
   constexpr double kRounding = 1e-3;  // [rad]
   const std::size_t count = scan.ranges.size();
   if (count == 0 || count > kMostBeams) return false;
   const bool finite = std::isfinite(scan.angle_min) && std::isfinite(scan.angle_increment) &&
-                      std::isfinite(scan.max_range) && scan.max_range > 0.0;
-  if (!finite || std::abs(scan.angle_min) > 4.0 * kPi) return false;
+                      scan.max_range > 0.0 && scan.max_range <= kFarthest;
+  constexpr double kLargestAngle = 4.0 * kPi;
+  if (!finite || std::abs(scan.angle_min) > kLargestAngle || std::abs(scan.angle_increment) > kLargestAngle)
+    return false;
   const double span = std::abs(scan.angle_increment) * static_cast<double>(count - 1);
   return span <= 2.0 * kPi + kRounding && (count == 1 || scan.angle_increment != 0.0);
+}
+
+bool sensible(const Pose2& sensor_in_body) {
+  return sensor_in_body.position_world.lpNorm<Eigen::Infinity>() <= kLargest &&
+         sensor_in_body.position_world.allFinite() && std::isfinite(sensor_in_body.heading);
 }
 
 bool blind(const RangeScan& scan) {
@@ -27,7 +39,6 @@ bool blind(const RangeScan& scan) {
 }
 
 bool sensible(const Detection& detection) {
-  constexpr double kLargest = 100.0;   // [m]
   constexpr double kFastest = 1000.0;  // [m/s]
   const auto within = [](double value, double limit) { return value >= 0.0 && value <= limit; };
   return within(detection.position_world.lpNorm<Eigen::Infinity>(), kFarthest) &&

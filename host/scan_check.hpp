@@ -6,10 +6,11 @@
 
 namespace spf::host {
 
-inline constexpr std::size_t kMostBeams = 100000;
-
-/// Finite angles, at least one beam and at most kMostBeams, no more than one turn.
+/// Finite angles, at least one beam and at most kMostBeams, no more than one turn, a range of at most
+/// kFarthest.
 [[nodiscard]] bool sensible(const RangeScan& scan);
+/// A place on a robot: finite, and within 100 m of its centre.
+[[nodiscard]] bool sensible(const Pose2& sensor_in_body);
 /// More than half of the beams have no reading (NaN, or nothing above 0): the sensor is covered or broken.
 [[nodiscard]] bool blind(const RangeScan& scan);
 

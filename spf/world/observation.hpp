@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Detection {
   double radius = 0.3;                                       ///< [m]
   double position_sigma = 0.0;                               ///< [m] standard deviation per axis, 0 = exact
 };
+
+/// Largest number of beams of one sweep: more than any scanner has.
+inline constexpr std::size_t kMostBeams = 100'000;
 
 /// One sweep of a planar range sensor at the robot's centre. Beam i points at angle_min + i * angle_increment
 /// in the body frame. A beam without a return reads infinity.

@@ -21,6 +21,14 @@ void check_rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high, co
   throw std::invalid_argument(std::string{what} + ": needs finite corners with low < high");
 }
 
+/// Every beam's direction too: angles may grow beyond all numbers.
+bool finite(const RangeScan& scan, const Pose2& pose_world) {
+  const double last = scan.angle_min + static_cast<double>(scan.ranges.size()) * scan.angle_increment;
+  return pose_world.position_world.allFinite() && std::isfinite(pose_world.heading) &&
+         std::isfinite(pose_world.heading + scan.angle_min) && std::isfinite(pose_world.heading + last) &&
+         std::isfinite(scan.angle_increment) && std::isfinite(scan.max_range) && scan.max_range > 0.0;
+}
+
 }  // namespace
 
 /// The four nodes around a place, and where it stands between them.
@@ -165,24 +173,27 @@ double OccupancyMap::trace(const Eigen::Vector2d& a, const Eigen::Vector2d& b, d
 
 void OccupancyMap::integrate(const RangeScan& scan, const Pose2& sensor_pose_world,
                              const std::vector<IgnoredDisc>& ignored) {
+  if (scan.ranges.size() > kMostBeams || !finite(scan, sensor_pose_world)) return;
   const Eigen::Vector2d sensor = sensor_pose_world.position_world;
-  const bool finite = sensor.allFinite() && std::isfinite(sensor_pose_world.heading) &&
-                      std::isfinite(scan.angle_min) && std::isfinite(scan.angle_increment) &&
-                      std::isfinite(scan.max_range) && scan.max_range > 0.0;
-  if (!finite) return;
   const Eigen::Vector2d extent = frame_.resolution * Eigen::Vector2d{frame_.width - 1, frame_.height - 1};
-  if (box_distance(sensor, frame_.origin_world, frame_.origin_world + extent) > scan.max_range) return;
-  collect_beams(scan, sensor_pose_world, ignored);
+  const double reach = reach_of(scan);
+  if (box_distance(sensor, frame_.origin_world, frame_.origin_world + extent) > reach) return;
+  collect_beams(scan, sensor_pose_world, reach, ignored);
   if (beams_.empty()) return;
   if (!sensed_) sensed_.emplace(frame_, max_distance_, parameters_);
   if (sensed_->integrate(sensor, beams_)) ++revision_;
 }
 
-void OccupancyMap::collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world,
+/// How far beams are followed: a sensor may report any large number as its range.
+double OccupancyMap::reach_of(const RangeScan& scan) const {
+  constexpr double kMostCrossings = 2e7;  // cells; no real sweep on a grid of real size comes near
+  const double diagonal = std::hypot(frame_.width, frame_.height);
+  const double cells = kMostCrossings / static_cast<double>(std::max<std::size_t>(scan.ranges.size(), 1));
+  return std::min(scan.max_range, frame_.resolution * std::min(diagonal, cells));
+}
+
+void OccupancyMap::collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world, double reach,
                                  const std::vector<IgnoredDisc>& ignored) {
-  // Beams are followed at most across the grid: a sensor may report any large number as its range.
-  const double grid_diagonal = frame_.resolution * std::hypot(frame_.width, frame_.height);
-  const double reach = std::min(scan.max_range, grid_diagonal + scan.max_range * 1e-12);
   beams_.clear();
   for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
     const double range = scan.ranges[k];
@@ -191,7 +202,7 @@ void OccupancyMap::collect_beams(const RangeScan& scan, const Pose2& sensor_pose
         sensor_pose_world.heading + scan.angle_min + static_cast<double>(k) * scan.angle_increment;
     SensedBeam beam;
     beam.direction_world = {std::cos(angle), std::sin(angle)};
-    beam.returned = range <= scan.max_range && range <= reach;
+    beam.returned = range <= reach;
     beam.length = std::min(range, reach);
     if (beam.returned) {
       const Eigen::Vector2d end = sensor_pose_world.position_world + range * beam.direction_world;

@@ -46,7 +46,10 @@ class OccupancyMap {
   /// Enters one sweep of the range sensor taken at `sensor_pose_world`: cells crossed by beams become free,
   /// cells with returns occupied (log odds), unless the return lies in an ignored disc or within half a cell
   /// of a known shape. Ranges that are NaN, -infinity or not positive are skipped; +infinity, or beyond
-  /// max_range, is "nothing there".
+  /// max_range, is "nothing there". Time is bounded whatever the sweep holds: beams are followed across the
+  /// grid at most, and less far where all of them together would cross more than 2 * 10^7 cells. A sweep of
+  /// more than kMostBeams, from a place farther from the grid than the grid is long, or with numbers that are
+  /// not finite, enters nothing.
   void integrate(const RangeScan& scan, const Pose2& sensor_pose_world,
                  const std::vector<IgnoredDisc>& ignored);
 
@@ -104,7 +107,8 @@ class OccupancyMap {
   void add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,
                  const SignedDistance& signed_distance);
   [[nodiscard]] bool explained_by_known(const Eigen::Vector2d& position_world) const;
-  void collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world,
+  [[nodiscard]] double reach_of(const RangeScan& scan) const;
+  void collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world, double reach,
                      const std::vector<IgnoredDisc>& ignored);
 
   GridFrame frame_;

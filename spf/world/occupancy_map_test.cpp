@@ -258,6 +258,64 @@ TEST(OccupancyMap, BadRangesAndPosesAreSkipped) {
   EXPECT_TRUE(map.occupied_points().empty());
 }
 
+/// Occupied places and every distance.
+void expect_equal(const OccupancyMap& a, const OccupancyMap& b) {
+  const std::vector<Eigen::Vector2d> points = a.occupied_points(), others = b.occupied_points();
+  ASSERT_EQ(points.size(), others.size());
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i], others[i]);
+  for (int j = 0; j < a.frame().height; ++j)
+    for (int i = 0; i < a.frame().width; ++i) ASSERT_EQ(a.node_distance(i, j), b.node_distance(i, j));
+}
+
+TEST(OccupancyMap, ASensorMayClaimAnyRange) {
+  std::vector<double> ranges(720, kInfinity);
+  for (std::size_t k = 0; k < ranges.size(); k += 3) ranges[k] = 2.5;
+  for (std::size_t k = 1; k < ranges.size(); k += 9) ranges[k] = 1e300;
+  OccupancyMap honest = map_of(5.0);
+  for (int sweep = 0; sweep < 3; ++sweep) honest.integrate(sweep_of(ranges, 1000.0), {{0.5, 0.5}, 0.0}, {});
+  ASSERT_FALSE(honest.occupied_points().empty());
+  for (const double claimed : {1e9, 1e18, 1e20, 1e300, std::numeric_limits<double>::max()}) {
+    OccupancyMap map = map_of(5.0);
+    for (int sweep = 0; sweep < 3; ++sweep) map.integrate(sweep_of(ranges, claimed), {{0.5, 0.5}, 0.0}, {});
+    expect_equal(map, honest);
+  }
+}
+
+TEST(OccupancyMap, ASensorMayBeAnywhere) {
+  OccupancyMap map = map_of(5.0);
+  for (const double far : {30.0, 1e6, 1e18, 1e300, -1e308, std::numeric_limits<double>::max()})
+    for (const double range : {8.0, 1e9, 1e300})
+      map.integrate(sweep_of(std::vector<double>(360, range), 2.0 * range), {{far, -far}, 1e300}, {});
+  EXPECT_EQ(map.revision(), 0u);
+  EXPECT_TRUE(map.occupied_points().empty());
+}
+
+TEST(OccupancyMap, AnglesThatGrowBeyondAllNumbersEnterNothing) {
+  OccupancyMap map = map_of(5.0);
+  RangeScan scan = sweep_of({2.0, 2.0, 2.0});
+  scan.angle_increment = 1e308;
+  map.integrate(scan, Pose2{}, {});
+  scan.angle_increment = 0.1;
+  scan.angle_min = 1e308;
+  map.integrate(scan, {{0.0, 0.0}, 1e308}, {});
+  EXPECT_EQ(map.revision(), 0u);
+}
+
+TEST(OccupancyMap, LooksAtABoundedNumberOfCells) {
+  // 2 * 10^7 cells for 10^5 beams: 200 of each, 20 m here.
+  OccupancyMap map = map_of(30.0);
+  std::vector<double> ranges(kMostBeams, 25.0);
+  for (std::size_t k = 0; k < ranges.size(); k += 2) ranges[k] = 15.0;
+  for (int sweep = 0; sweep < 3; ++sweep) map.integrate(sweep_of(ranges, 100.0), Pose2{}, {});
+  const std::vector<Eigen::Vector2d> points = map.occupied_points();
+  ASSERT_FALSE(points.empty());
+  for (const Eigen::Vector2d& point : points) EXPECT_NEAR(point.norm(), 15.0, 0.1);
+  ranges.push_back(5.0);  // more beams than any scanner has
+  const std::uint64_t revision = map.revision();
+  for (int sweep = 0; sweep < 3; ++sweep) map.integrate(sweep_of(ranges, 100.0), Pose2{}, {});
+  EXPECT_EQ(map.revision(), revision);
+}
+
 TEST(OccupancyMap, SegmentsFindTheirSmallestDistance) {
   OccupancyMap map = map_of(6.0);
   RandomStream random{21};
