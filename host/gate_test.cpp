@@ -12,6 +12,7 @@
 #include "host/plan_check.hpp"
 #include "host/scan_check.hpp"
 #include "spf/math/random_stream.hpp"
+#include "spf/world/peer_table.hpp"
 
 namespace spf::host {
 namespace {
@@ -273,6 +274,43 @@ TEST(Faults, APeerThatClaimsThePlaceOfAPillarDoesNotHideIt) {
   }
 }
 
+TEST(Faults, AnyNumberOfPeersIsHeldInBoundedRoom) {
+  Bench bench;
+  bench.run(1.0);
+  ASSERT_NE(bench.planner.agent(), nullptr);
+  const std::uint32_t most = static_cast<std::uint32_t>(kMostPeers);
+  const auto flood = [&](int from) {
+    for (int id = from + 3 * static_cast<int>(most); id > from; --id)
+      bench.planner.add_message(told(id, bench.now, standing(-15.0, bench.now)), bench.now);
+  };
+  flood(100);
+  const PlannerCounts counts = bench.planner.counts();  // most were taken in before the next step
+  EXPECT_GT(counts.messages_accepted + counts.messages_crowded, 3 * most - 1000);
+  bench.tick();
+  EXPECT_EQ(bench.planner.counts().messages_accepted, most);
+  EXPECT_EQ(bench.planner.counts().messages_crowded, 2 * most);
+  bench.run(0.1);
+  EXPECT_EQ(bench.planner.agent()->peers().size(), kMostPeers);
+}
+
+TEST(PeerWitness, RemembersABoundedNumberOfPeersTheSilentLeast) {
+  PeerWitness witness;
+  const int most = static_cast<int>(kMostPeers);
+  const auto hear_all = [&](int from, double now) {
+    for (int id = from; id < from + most; ++id) witness.hear(told(id, now, standing(1.0, now)), now);
+  };
+  hear_all(0, 10.0);
+  hear_all(0, 11.5);
+  hear_all(most, 11.5);  // come too late, and drive nobody out
+  EXPECT_TRUE(witness.trusts(0, 11.6));
+  EXPECT_TRUE(witness.trusts(most - 1, 11.6));
+  EXPECT_FALSE(witness.trusts(most, 20.0));
+  hear_all(most, 15.0);  // the first have been silent
+  hear_all(most, 16.5);
+  EXPECT_FALSE(witness.trusts(0, 16.6));
+  EXPECT_TRUE(witness.trusts(2 * most - 1, 16.6));
+}
+
 TEST(PeerWitness, TrustsWhoIsWhereItSays) {
   PeerWitness witness;
   std::vector<Peer> peers(1);
@@ -330,7 +368,19 @@ TEST(ScanCheck, KnowsSenseFromNonsense) {
   scan = sweep(360, 1.0);
   scan.max_range = -1.0;
   EXPECT_FALSE(sensible(scan));
+  for (const double claimed : {2e6, 1e18, 1e20, 1e300, kInfinity}) {
+    scan.max_range = claimed;
+    EXPECT_FALSE(sensible(scan)) << claimed;
+  }
   EXPECT_FALSE(sensible(sweep(200000, 1.0)));
+  scan = sweep(1, 1.0);
+  scan.angle_increment = 1e300;
+  EXPECT_FALSE(sensible(scan));
+  EXPECT_TRUE(sensible(Pose2{{-1.0, 0.5}, kPi}));
+  EXPECT_FALSE(sensible(Pose2{{1e3, 0.0}, 0.0}));
+  EXPECT_FALSE(sensible(Pose2{{0.0, -1e20}, 0.0}));
+  EXPECT_FALSE(sensible(Pose2{{NAN, 0.0}, 0.0}));
+  EXPECT_FALSE(sensible(Pose2{{0.0, 0.0}, kInfinity}));
 }
 
 TEST(ScanCheck, SeesFromTheCentreWhatASensorElsewhereSaw) {
@@ -365,12 +415,14 @@ TEST(PerceptionHost, NamesWhatItRefuses) {
   EXPECT_EQ(scan(9.0, sweep(360, 1.0), 10.0), ObservationVerdict::late);
   EXPECT_EQ(scan(10.0, sweep(360, 1.0), 10.0), ObservationVerdict::accepted);
   EXPECT_EQ(scan(10.0, sweep(360, 1.0), 10.0), ObservationVerdict::late);
+  EXPECT_FALSE(host.add_scan(10.1, sweep(360, 1.0), {{1e9, 0.0}, 0.0}, 10.1));
+  EXPECT_EQ(host.last_verdict(), ObservationVerdict::malformed);
   Detection nowhere;
   nowhere.position_world.x() = NAN;
   EXPECT_FALSE(host.add_detections(10.0, {nowhere}, 10.0));
   EXPECT_EQ(host.last_verdict(), ObservationVerdict::malformed);
   EXPECT_TRUE(host.add_detections(10.0, {}, 10.0));
-  EXPECT_EQ(host.refused(), 6u);
+  EXPECT_EQ(host.refused(), 7u);
 }
 
 TEST(PerceptionHost, KeepsAMapAndTracks) {

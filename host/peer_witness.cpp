@@ -4,23 +4,23 @@
 #include <cmath>
 
 #include "spf/math/angles.hpp"
+#include "spf/world/peer_table.hpp"
 
 namespace spf::host {
 namespace {
 
-constexpr double kSilence = 2.0;      // [s] after which a peer is a new one
-constexpr double kProbation = 1.0;    // [s] for which a new peer explains nothing
-constexpr double kMemory = 1.0;       // [s] time constant of its jumps
-constexpr double kMostJumps = 1.0;    // [radii] honest plans join; braking that is heard late differs by less
-constexpr double kDoubt = 2.0;        // [s] for which a peer that was not there is not believed
-constexpr double kMiddle = 0.3;       // [1] of its radius: errors of poses and clocks stay below
-constexpr std::size_t kMost = 10000;  // peers
+constexpr double kSilence = 2.0;    // [s] after which a peer is a new one
+constexpr double kProbation = 1.0;  // [s] for which a new peer explains nothing
+constexpr double kMemory = 1.0;     // [s] time constant of its jumps
+constexpr double kMostJumps = 1.0;  // [radii] honest plans join; braking that is heard late differs by less
+constexpr double kDoubt = 2.0;      // [s] for which a peer that was not there is not believed
+constexpr double kMiddle = 0.3;     // [1] of its radius: errors of poses and clocks stay below
 
 }  // namespace
 
 void PeerWitness::hear(const TrajectoryMessage& message, double now) {
   if (message.trajectory.empty()) return;
-  if (known_.size() >= kMost) known_.clear();
+  if (known_.count(message.robot_id) == 0 && !make_room(now)) return;  // and is not trusted
   const auto [place, is_new] = known_.try_emplace(message.robot_id);
   Record& record = place->second;
   if (is_new || now - record.last_heard > kSilence) {
@@ -33,6 +33,17 @@ void PeerWitness::hear(const TrajectoryMessage& message, double now) {
   }
   record.last_heard = now;
   record.said = message.trajectory;
+}
+
+/// Whether one more peer fits, if need be for the one that has been silent longest.
+bool PeerWitness::make_room(double now) {
+  if (known_.size() < kMostPeers) return true;
+  const auto silent = std::min_element(known_.begin(), known_.end(), [](const auto& a, const auto& b) {
+    return a.second.last_heard < b.second.last_heard;
+  });
+  if (now - silent->second.last_heard <= kSilence) return false;
+  known_.erase(silent);
+  return true;
 }
 
 void PeerWitness::see(const RangeScan& scan, const Pose2& pose_world, double time,

@@ -1,7 +1,7 @@
 // Whose word may explain what a scan shows. A peer's disc hides returns from the static map, since they are
 // the peer itself; a peer that is not where it says it is must not hide anything. So it has to be heard for a
 // while, to do what it said before, and to be seen when it is in plain view. Frame: world; times are the
-// host's [s].
+// host's [s]. It remembers at most kMostPeers of them.
 #pragma once
 
 #include <map>
@@ -25,6 +25,8 @@ class PeerWitness {
   void forget() { known_.clear(); }
 
  private:
+  bool make_room(double now);
+
   struct Record {
     double first_heard = 0.0;     // [s]
     double last_heard = 0.0;      // [s]

@@ -13,9 +13,10 @@ namespace spf::host {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-constexpr double kLookBack = 0.3;       // [s] of poses by which a robot is seen to stand
-constexpr double kStandingSpeed = 0.1;  // [1] of max_speed
-constexpr double kSpare = 1.0;          // [s] beyond braking, after which it is taken to stand
+constexpr double kLookBack = 0.3;          // [s] of poses by which a robot is seen to stand
+constexpr double kStandingSpeed = 0.1;     // [1] of max_speed
+constexpr std::size_t kMostWaiting = 256;  // poses, or messages, between two steps; then the agent takes them
+constexpr double kSpare = 1.0;             // [s] beyond braking, after which it is taken to stand
 
 Eigen::Vector2d mean_position(const std::vector<PoseMeasurement>& poses, std::size_t from, std::size_t to) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -66,10 +67,12 @@ PoseVerdict PlannerHost::add_pose(const PoseMeasurement& pose, double now) {
   }
   if (verdict == PoseVerdict::relocalised) forget_agent();
   if (agent_) {
+    if (input_.poses.size() >= kMostWaiting) agent_->receive(clock_.now(), std::exchange(input_, {}));
     input_.poses.push_back(pose);
     return verdict;
   }
   if (!first_pose_time_) first_pose_time_ = pose.time;
+  if (recent_poses_.size() >= kMostWaiting) recent_poses_.erase(recent_poses_.begin());
   recent_poses_.push_back(pose);
   const auto old = [&](const PoseMeasurement& past) { return past.time < pose.time - kLookBack; };
   recent_poses_.erase(recent_poses_.begin(),
@@ -115,7 +118,7 @@ void PlannerHost::doubt_peers(const Observation& observation) {
 }
 
 bool PlannerHost::well_formed(const TrajectoryMessage& message) const {
-  return message.robot_id >= 0 && message.radius <= host_.largest_peer_radius &&
+  return message.robot_id >= 0 && message.radius > 0.0 && message.radius <= host_.largest_peer_radius &&
          message.position_sigma <= host_.largest_peer_sigma &&
          drivable(message.trajectory, {host_.largest_peer_speed});
 }
@@ -128,7 +131,10 @@ MessageVerdict PlannerHost::add_message(const TrajectoryMessage& message, double
     return MessageVerdict::malformed;
   }
   // The agent's table judges the rest: order, age, clock.
-  if (agent_) input_.messages.push_back(message);
+  if (agent_) {
+    if (input_.messages.size() >= kMostWaiting) agent_->receive(clock_.now(), std::exchange(input_, {}));
+    input_.messages.push_back(message);
+  }
   witness_.hear(message, clock_.now());
   return MessageVerdict::accepted;
 }
@@ -160,6 +166,7 @@ PlannerCounts PlannerHost::counts() const {
   counts.messages_accepted += of(MessageVerdict::accepted);
   counts.messages_malformed += of(MessageVerdict::malformed);
   counts.messages_old += of(MessageVerdict::old) + of(MessageVerdict::duplicate);
+  counts.messages_crowded += of(MessageVerdict::crowded);
   return counts;
 }
 

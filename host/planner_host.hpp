@@ -54,6 +54,7 @@ struct PlannerCounts {
   std::uint32_t messages_accepted = 0;
   std::uint32_t messages_malformed = 0;
   std::uint32_t messages_old = 0;
+  std::uint32_t messages_crowded = 0;  ///< of more peers than a robot keeps in mind
   std::uint32_t inputs_refused = 0;
   std::uint32_t restarts = 0;  ///< of the agent, the first one among them
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spf/math/angles.hpp"
+#include "spf/math/believable.hpp"
 
 namespace spf {
 namespace {
@@ -53,7 +54,7 @@ void PoseObserver::predict(double dt, const Eigen::Vector3d& applied_twist_world
 }
 
 MeasurementOutcome PoseObserver::correct(const Pose2& measured_world) {
-  if (!measured_world.position_world.allFinite() || !std::isfinite(measured_world.heading))
+  if (!believable(measured_world.position_world) || !std::isfinite(measured_world.heading))
     return MeasurementOutcome::invalid;
   const Triple measured{measured_world.position_world.x(), measured_world.position_world.y(),
                         wrap_angle(measured_world.heading)};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/believable.hpp"
+
 namespace spf {
 namespace {
 
@@ -10,10 +12,10 @@ constexpr double kDriftKept = 0.7;  // [1] from one innovation to the next: a dr
 constexpr double kOneEvent = 2.0;   // [s] surprises closer than this are no single event
 
 bool well_formed(const Detection& detection) {
-  const bool finite = detection.position_world.allFinite() && std::isfinite(detection.radius) &&
-                      std::isfinite(detection.position_sigma) &&
-                      (!detection.velocity_world || detection.velocity_world->allFinite());
-  return finite && detection.radius >= 0.0 && detection.position_sigma >= 0.0;
+  const bool numbers = believable(detection.position_world) && believable(detection.radius) &&
+                       believable(detection.position_sigma) &&
+                       (!detection.velocity_world || believable(*detection.velocity_world));
+  return numbers && detection.radius >= 0.0 && detection.position_sigma >= 0.0;
 }
 
 void predict(ObstacleTrack& track, double time) {
@@ -75,6 +77,10 @@ void ObstacleTracker::enter(const Detection& detection, double time) {
                                       [](const ObstacleTrack& track, int id) { return track.id < id; });
   const auto slot = static_cast<std::size_t>(place - tracks_.begin());
   if (place == tracks_.end() || place->id != detection.id) {
+    if (tracks_.size() >= kMostTracks) {
+      ++stats_.crowded;
+      return;
+    }
     begin_track(slot, detection, time);
   } else if (!(time > memories_[slot].last_seen)) {
     ++stats_.stale;

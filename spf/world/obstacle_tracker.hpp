@@ -39,12 +39,16 @@ struct ObstacleTrackerParameters {
   }
 };
 
+/// How many obstacles a robot keeps in mind.
+inline constexpr std::size_t kMostTracks = 2000;
+
 struct ObstacleTrackerStats {
   std::uint64_t accepted = 0;   ///< detections that updated a track
-  std::uint64_t malformed = 0;  ///< not finite, or a radius or sigma out of range
+  std::uint64_t malformed = 0;  ///< not believable, or a radius or sigma out of range
   std::uint64_t stale = 0;      ///< not newer than the track
   std::uint64_t surprises = 0;  ///< sudden changes of motion
   std::uint64_t dropped = 0;    ///< tracks that timed out
+  std::uint64_t crowded = 0;    ///< detections of one more obstacle than kMostTracks
 };
 
 class ObstacleTracker {

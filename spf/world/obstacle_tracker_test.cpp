@@ -255,5 +255,36 @@ TEST(ObstacleTracker, CountsMalformedDetections) {
   EXPECT_THROW(ObstacleTracker{parameters}, std::invalid_argument);
 }
 
+TEST(ObstacleTracker, HoldsABoundedNumberOfTracks) {
+  ObstacleTracker tracker;
+  const int most = static_cast<int>(kMostTracks);
+  Observation observation;
+  for (int id = 3 * most; id > 0; --id) observation.detections.push_back({id, {1.0, 1.0}, {}, 0.3, 0.0});
+  tracker.update(observation);
+  EXPECT_EQ(tracker.tracks().size(), kMostTracks);
+  EXPECT_EQ(tracker.stats().crowded, 2 * kMostTracks);
+  // Who is known is followed, and a place is free again when a track has timed out.
+  observation.time = 0.1;
+  observation.detections = {{3 * most, {1.1, 1.0}, {}, 0.3, 0.0}};
+  tracker.update(observation);
+  EXPECT_EQ(tracker.stats().accepted, kMostTracks + 1);
+  observation.time = 1000.0;
+  observation.detections.clear();
+  tracker.update(observation);
+  EXPECT_TRUE(tracker.tracks().empty());
+}
+
+TEST(ObstacleTracker, RefusesPlacesAndSpeedsBeyondAllNumbers) {
+  ObstacleTracker tracker;
+  Observation observation;
+  observation.detections = {{1, {1e300, 0.0}, {}, 0.3, 0.0},
+                            {2, {0.0, 0.0}, Eigen::Vector2d{0.0, -1e300}, 0.3, 0.0},
+                            {3, {0.0, 0.0}, {}, 1e300, 0.0},
+                            {4, {0.0, 0.0}, {}, 0.3, 1e300}};
+  tracker.update(observation);
+  EXPECT_TRUE(tracker.tracks().empty());
+  EXPECT_EQ(tracker.stats().malformed, 4u);
+}
+
 }  // namespace
 }  // namespace spf

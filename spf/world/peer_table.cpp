@@ -3,20 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/believable.hpp"
+
 namespace spf {
 namespace {
 
-bool finite(const Trajectory& trajectory) {
-  const HeadingState heading = trajectory.heading().state(trajectory.start_time());
-  if (!std::isfinite(trajectory.start_time()) || !std::isfinite(heading.heading) ||
-      !std::isfinite(heading.yaw_rate)) {
-    return false;
+/// Whether position, velocity and acceleration stay believable all along a piece: bounds in which no part of
+/// the sums takes away from another.
+bool usable(const QuinticPiece& piece) {
+  if (!believable(piece.duration) || !(piece.duration > 0.0) || !believable(piece.coefficients)) return false;
+  double position = 0.0, velocity = 0.0, acceleration = 0.0;
+  for (int k = 5; k >= 0; --k) {
+    const double size = piece.coefficients.row(k).cwiseAbs().maxCoeff();
+    position = position * piece.duration + size;
+    if (k >= 1) velocity = velocity * piece.duration + k * size;
+    if (k >= 2) acceleration = acceleration * piece.duration + k * (k - 1) * size;
   }
+  return believable(position) && believable(velocity) && believable(acceleration);
+}
+
+bool usable(const HeadingProfile& heading) {
+  const HeadingPhases phases = heading.phases();
+  return std::isfinite(phases.start_time) && believable(phases.initial_heading) &&
+         believable(phases.initial_rate) && believable(phases.cruise_rate) &&
+         believable(heading.turn_duration());
+}
+
+/// From its start to its end, at any time that anybody may ask for.
+bool usable(const Trajectory& trajectory) {
+  if (!std::isfinite(trajectory.start_time()) || !usable(trajectory.heading())) return false;
   for (int k = 0; k < trajectory.piece_count(); ++k) {
-    const QuinticPiece& piece = trajectory.piece(k);
-    const bool usable =
-        piece.coefficients.allFinite() && std::isfinite(piece.duration) && piece.duration > 0.0;
-    if (!usable) return false;
+    if (!usable(trajectory.piece(k))) return false;
   }
   return true;
 }
@@ -27,16 +44,16 @@ PeerTable::PeerTable(int own_id, const PeerTableParameters& parameters)
     : own_id_{own_id}, parameters_{validated(parameters)} {}
 
 MessageVerdict PeerTable::receive(const TrajectoryMessage& message, double now) {
-  const MessageVerdict verdict = judge(message, now);
+  MessageVerdict verdict = judge(message, now);
+  const bool believed = verdict == MessageVerdict::accepted;
+  if (believed && entries_.count(message.robot_id) == 0 && !make_room(now)) verdict = MessageVerdict::crowded;
   ++counts_[static_cast<std::size_t>(verdict)];
   if (verdict != MessageVerdict::accepted) return verdict;
 
-  auto place = std::lower_bound(entries_.begin(), entries_.end(), message.robot_id,
-                                [](const Entry& entry, int id) { return entry.peer.robot_id < id; });
-  if (place == entries_.end() || place->peer.robot_id != message.robot_id) place = entries_.emplace(place);
-  place->sequence = message.sequence;
-  place->expiry_time = std::min(message.expiry_time, now + parameters_.silence);
-  Peer& peer = place->peer;
+  Entry& entry = entries_[message.robot_id];
+  entry.sequence = message.sequence;
+  entry.expiry_time = std::min(message.expiry_time, now + parameters_.silence);
+  Peer& peer = entry.peer;
   peer.robot_id = message.robot_id;
   peer.state = message.state;
   peer.radius = message.radius;
@@ -51,11 +68,12 @@ MessageVerdict PeerTable::receive(const TrajectoryMessage& message, double now) 
 MessageVerdict PeerTable::judge(const TrajectoryMessage& message, double now) const {
   if (message.robot_id == own_id_) return MessageVerdict::own;
   if (!well_formed(message, now)) return MessageVerdict::malformed;
-  const Entry* known = find(message.robot_id);
-  if (!known || now > known->expiry_time) return MessageVerdict::accepted;
-  if (message.sequence == known->sequence) return MessageVerdict::duplicate;
+  const auto place = entries_.find(message.robot_id);
+  if (place == entries_.end() || now > place->second.expiry_time) return MessageVerdict::accepted;
+  const Entry& known = place->second;
+  if (message.sequence == known.sequence) return MessageVerdict::duplicate;
   // Counted on a circle, so that a sequence may run over its end.
-  const bool newer = static_cast<std::int32_t>(message.sequence - known->sequence) > 0;
+  const bool newer = static_cast<std::int32_t>(message.sequence - known.sequence) > 0;
   return newer ? MessageVerdict::accepted : MessageVerdict::old;
 }
 
@@ -63,26 +81,33 @@ bool PeerTable::well_formed(const TrajectoryMessage& message, double now) const 
   const bool numbers = std::isfinite(now) && std::isfinite(message.sent_time) &&
                        std::isfinite(message.expiry_time) && message.radius > 0.0 &&
                        message.radius <= parameters_.largest_radius && message.position_sigma >= 0.0 &&
-                       std::isfinite(message.position_sigma);
-  if (!numbers || message.trajectory.empty() || !finite(message.trajectory)) return false;
+                       believable(message.position_sigma);
+  if (!numbers || message.trajectory.empty() || !usable(message.trajectory)) return false;
   const double latest = now + parameters_.clock_tolerance;
   return message.sent_time <= latest && message.trajectory.start_time() <= latest &&
          message.sent_time >= now - parameters_.oldest_message && message.expiry_time >= message.sent_time;
 }
 
-const PeerTable::Entry* PeerTable::find(int robot_id) const {
-  const auto place = std::lower_bound(entries_.begin(), entries_.end(), robot_id,
-                                      [](const Entry& entry, int id) { return entry.peer.robot_id < id; });
-  return place != entries_.end() && place->peer.robot_id == robot_id ? &*place : nullptr;
+/// Whether one more sender fits, if need be for the one that expired first.
+bool PeerTable::make_room(double now) {
+  if (entries_.size() < kMostPeers) return true;
+  const auto first = std::min_element(entries_.begin(), entries_.end(), [](const auto& a, const auto& b) {
+    return a.second.expiry_time < b.second.expiry_time;
+  });
+  if (now <= first->second.expiry_time) return false;
+  entries_.erase(first);
+  return true;
 }
 
 const std::vector<Peer>& PeerTable::peers(double now) {
-  const auto forgotten = [&](const Entry& entry) {
-    return now > entry.expiry_time + parameters_.forget_time;
-  };
-  entries_.erase(std::remove_if(entries_.begin(), entries_.end(), forgotten), entries_.end());
   peers_.clear();
-  for (Entry& entry : entries_) {
+  for (auto place = entries_.begin(); place != entries_.end();) {
+    Entry& entry = place->second;
+    if (now > entry.expiry_time + parameters_.forget_time) {
+      place = entries_.erase(place);
+      continue;
+    }
+    ++place;
     Peer& peer = entry.peer;
     if (!peer.expired && now > entry.expiry_time) {
       // The last known place is where the peer said it would be when its word ran out.

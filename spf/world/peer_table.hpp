@@ -1,11 +1,15 @@
 // Teammates as known from their broadcasts: which messages are believed, and what becomes of a peer that
-// falls silent. Frame: world. Time is the receiver's; clocks agree within `clock_tolerance`.
+// falls silent. Frame: world. Time is the receiver's; clocks agree within `clock_tolerance`. Whatever is
+// sent, the table holds at most kMostPeers, a message costs at most one look at each of them, and no number
+// in it leaves what can be reckoned with.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "spf/math/parameters.hpp"
@@ -41,13 +45,18 @@ struct PeerTableParameters {
   }
 };
 
+/// How many peers a robot keeps in mind: about twice the largest fleet whose robots all hear each other.
+inline constexpr std::size_t kMostPeers = 2000;
+
 enum class MessageVerdict {
   accepted,
   own,        ///< the robot's own message came back
   duplicate,  ///< the sequence number that is known already
   old,        ///< an older one: overtaken on the way
-  malformed,  ///< not finite, without a trajectory, out of range
+  malformed,  ///< not finite, leading beyond all places or speeds, without a trajectory, out of range
+  crowded,    ///< good, but of one more sender than kMostPeers, none of which has expired
 };
+inline constexpr std::size_t kMessageVerdicts = static_cast<std::size_t>(MessageVerdict::crowded) + 1;
 
 class PeerTable {
  public:
@@ -55,7 +64,8 @@ class PeerTable {
   explicit PeerTable(int own_id, const PeerTableParameters& parameters = {});
 
   /// Checks a message and, when good, makes it what is known of its sender. `now` [s] is the time of arrival.
-  /// A sender that has been silent long enough to expire may start its sequence afresh (it was restarted).
+  /// A sender that has been silent long enough to expire may start its sequence afresh (it was restarted). In
+  /// a full table a new sender takes the place of the one that expired first.
   MessageVerdict receive(const TrajectoryMessage& message, double now);
 
   /// Everybody known at this time, sorted by robot_id; drops who is forgotten. The reference holds until the
@@ -76,13 +86,13 @@ class PeerTable {
 
   [[nodiscard]] MessageVerdict judge(const TrajectoryMessage& message, double now) const;
   [[nodiscard]] bool well_formed(const TrajectoryMessage& message, double now) const;
-  [[nodiscard]] const Entry* find(int robot_id) const;
+  [[nodiscard]] bool make_room(double now);
 
   int own_id_;
   PeerTableParameters parameters_;
-  std::vector<Entry> entries_;  // sorted by robot_id
+  std::map<int, Entry> entries_;  // by robot_id
   std::vector<Peer> peers_;
-  std::array<std::uint64_t, 5> counts_{};
+  std::array<std::uint64_t, kMessageVerdicts> counts_{};
 };
 
 }  // namespace spf

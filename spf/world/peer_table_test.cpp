@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "spf/math/angles.hpp"
+#include "spf/math/random_stream.hpp"
+
 namespace spf {
 namespace {
 
@@ -130,6 +133,90 @@ TEST(PeerTable, AnArrivedPeerStandsWhileItSpeaks) {
   EXPECT_FALSE(peer.expired);
   EXPECT_NEAR(peer.position(499.8).x(), 6.0, 1e-12);
   EXPECT_EQ(peer.velocity(499.8), Eigen::Vector2d::Zero());
+}
+
+TEST(PeerTable, HoldsABoundedNumberOfPeers) {
+  PeerTable table{0};
+  const int most = static_cast<int>(kMostPeers);
+  for (int id = 10 * most; id > 0; --id) (void)table.receive(message_of(id, 1, 0.0), 0.0);
+  EXPECT_EQ(table.peers(0.0).size(), kMostPeers);
+  EXPECT_EQ(table.count(MessageVerdict::accepted), kMostPeers);
+  EXPECT_EQ(table.count(MessageVerdict::crowded), 9 * kMostPeers);
+  // Who is known is heard; newcomers wait until somebody has fallen silent.
+  const int silent = 10 * most;
+  for (int id = silent - 1; id > 9 * most; --id)
+    ASSERT_EQ(table.receive(message_of(id, 2, 0.5), 0.5), MessageVerdict::accepted);
+  EXPECT_EQ(table.receive(message_of(1, 1, 0.9), 0.9), MessageVerdict::crowded);
+  EXPECT_EQ(table.receive(message_of(1, 1, 1.1), 1.1), MessageVerdict::accepted);
+  EXPECT_EQ(table.receive(message_of(2, 1, 1.1), 1.1), MessageVerdict::crowded);
+  const std::vector<Peer>& peers = table.peers(1.1);
+  EXPECT_EQ(peers.size(), kMostPeers);
+  EXPECT_EQ(peers.front().robot_id, 1);
+  EXPECT_EQ(peers.back().robot_id, silent - 1);
+}
+
+/// One piece with one coefficient set, in both axes.
+TrajectoryMessage message_with(int row, double coefficient, double duration) {
+  TrajectoryMessage message = message_of(2, 1, 0.0);
+  QuinticPiece piece;
+  piece.coefficients.row(row).setConstant(coefficient);
+  piece.duration = duration;
+  message.trajectory = Trajectory{0.0};
+  message.trajectory.append(piece);
+  return message;
+}
+
+TEST(PeerTable, BelievesNothingThatLeavesTheFinite) {
+  const auto verdict = [](const TrajectoryMessage& message) { return PeerTable{1}.receive(message, 0.0); };
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(verdict(message_with(0, sign * 1e6, 10.0)), MessageVerdict::accepted) << "far, but a place";
+    EXPECT_EQ(verdict(message_with(0, sign * 1e300, 1.0)), MessageVerdict::malformed) << "position";
+    EXPECT_EQ(verdict(message_with(1, sign * 1e300, 1e-300)), MessageVerdict::malformed) << "speed alone";
+    EXPECT_EQ(verdict(message_with(2, sign * 1e300, 1e-300)), MessageVerdict::malformed) << "acceleration";
+    EXPECT_EQ(verdict(message_with(5, sign * 1e6, 1e60)), MessageVerdict::malformed)
+        << "grows past the finite";
+    EXPECT_EQ(verdict(message_with(5, sign * 1.0, 1e8)), MessageVerdict::malformed)
+        << "grows past all places";
+    EXPECT_EQ(verdict(message_with(3, sign * 1e-3, 1e8)), MessageVerdict::malformed) << "likewise";
+  }
+  EXPECT_EQ(verdict(message_with(0, 1.0, 1e300)), MessageVerdict::malformed) << "duration";
+  TrajectoryMessage message = message_of(2, 1, 0.0);
+  message.position_sigma = 1e300;
+  EXPECT_EQ(verdict(message), MessageVerdict::malformed) << "sigma";
+  message = message_of(2, 1, 0.0);
+  HeadingPhases phases;
+  phases.cruise_rate = 2.0 * kPi * 1e200;
+  message.trajectory.set_heading(HeadingProfile::from_phases(phases).value());
+  EXPECT_EQ(verdict(message), MessageVerdict::malformed) << "turns faster than all numbers";
+}
+
+TEST(PeerTable, WhatItBelievesCanBeReckonedWith) {
+  RandomStream random{5};
+  const auto wild = [&random] {
+    return (random.uniform() < 0.5 ? -1.0 : 1.0) * std::pow(10.0, random.uniform(-300.0, 300.0));
+  };
+  int accepted = 0;
+  for (int i = 0; i < 20000; ++i) {
+    TrajectoryMessage message = message_of(2, 1, 0.0);
+    message.trajectory = Trajectory{-std::abs(random.uniform() < 0.1 ? wild() : 0.0)};
+    for (int k = 0; k < 3; ++k) {
+      QuinticPiece piece;
+      for (double& coefficient : piece.coefficients.reshaped())
+        coefficient = random.uniform() < 0.05 ? wild() : random.uniform(-1.0, 1.0);
+      piece.duration = random.uniform() < 0.1 ? std::abs(wild()) : random.uniform(0.1, 10.0);
+      message.trajectory.append(piece);
+    }
+    PeerTable table{1};
+    if (table.receive(message, 0.0) != MessageVerdict::accepted) continue;
+    ++accepted;
+    const Peer peer = table.peers(0.0).front();
+    for (const double time : {-1e300, -1.0, 0.0, 0.3, 1.0, 5.0, 1e3, 1e8, 1e300}) {
+      const FlatState state = peer.trajectory.state(time);
+      ASSERT_TRUE(std::isfinite(state.position_world.squaredNorm() * state.velocity_world.squaredNorm() *
+                                state.acceleration_world.squaredNorm()));
+    }
+  }
+  EXPECT_GT(accepted, 1000);
 }
 
 }  // namespace

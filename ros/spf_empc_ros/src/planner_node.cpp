@@ -191,6 +191,7 @@ void PlannerNode::report(const ros::Time& now) {
   Diagnostics::Values values{{"plans", std::to_string(host_.counts().plans)},
                              {"inputs refused", std::to_string(host_.counts().inputs_refused)},
                              {"messages malformed", std::to_string(host_.counts().messages_malformed)},
+                             {"messages of too many peers", std::to_string(host_.counts().messages_crowded)},
                              {"clock jumps", std::to_string(host_.clock_jumps())}};
   if (status.culprit >= 0) values.emplace_back("culprit", std::to_string(status.culprit));
   if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
