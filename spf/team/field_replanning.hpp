@@ -2,8 +2,8 @@
 // aside, try again later. Every robot brakes for every peer here, whatever its priority.
 #pragma once
 
-#include "spf/planning/evasion.hpp"
-#include "spf/planning/field_planner.hpp"
+#include "spf/planning/field/evasion.hpp"
+#include "spf/planning/field/field_planner.hpp"
 #include "spf/team/team_parameters.hpp"
 
 namespace spf {

@@ -1,4 +1,4 @@
-#include "spf/planning/space_time_planner.hpp"
+#include "spf/planning/space_time/space_time_planner.hpp"
 
 #include <gtest/gtest.h>
 

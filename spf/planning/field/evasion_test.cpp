@@ -1,4 +1,4 @@
-#include "spf/planning/evasion.hpp"
+#include "spf/planning/field/evasion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "spf/planning/grid_search.hpp"
+#include "spf/planning/field/grid_search.hpp"
 
 #include <gtest/gtest.h>
 

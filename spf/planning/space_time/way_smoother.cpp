@@ -1,4 +1,4 @@
-#include "spf/planning/way_smoother.hpp"
+#include "spf/planning/space_time/way_smoother.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "spf/planning/guide_pairs.hpp"
+#include "spf/planning/field/guide_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "spf/planning/costs/space_time_cost.hpp"
+#include "spf/planning/space_time/space_time_cost.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "spf/planning/space_time_risk.hpp"
+#include "spf/planning/space_time/space_time_risk.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "spf/planning/guide_pairs.hpp"
+#include "spf/planning/field/guide_pairs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "spf/planning/grid_search.hpp"
+#include "spf/planning/field/grid_search.hpp"
 #include "spf/planning/trajectory_optimizer.hpp"
 
 namespace spf {

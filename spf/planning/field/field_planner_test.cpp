@@ -1,4 +1,4 @@
-#include "spf/planning/field_planner.hpp"
+#include "spf/planning/field/field_planner.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Gradients of the space-time cost against central differences: at one node in place and time, and through
 // the whole optimisation, where moving a duration moves every later node in time.
-#include "spf/planning/costs/space_time_cost.hpp"
+#include "spf/planning/space_time/space_time_cost.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <array>
 
 #include "spf/planning/guide_path.hpp"
-#include "spf/planning/space_time_risk.hpp"
+#include "spf/planning/space_time/space_time_risk.hpp"
 #include "spf/trajectory/trajectory.hpp"
 
 namespace spf {

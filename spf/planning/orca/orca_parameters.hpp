@@ -1,4 +1,4 @@
-// Parameters of the reactive rule (spf/planning/orca_planner.hpp).
+// Parameters of the reactive rule (spf/planning/orca/orca_planner.hpp).
 #pragma once
 
 #include "spf/math/parameters.hpp"

@@ -1,4 +1,4 @@
-#include "spf/planning/orca_planner.hpp"
+#include "spf/planning/orca/orca_planner.hpp"
 
 #include <gtest/gtest.h>
 

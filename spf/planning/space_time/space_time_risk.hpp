@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "spf/planning/planner.hpp"
-#include "spf/planning/space_time_parameters.hpp"
+#include "spf/planning/space_time/space_time_parameters.hpp"
 
 namespace spf {
 

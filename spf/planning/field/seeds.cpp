@@ -1,4 +1,4 @@
-#include "spf/planning/seeds.hpp"
+#include "spf/planning/field/seeds.hpp"
 
 #include <algorithm>
 #include <cmath>

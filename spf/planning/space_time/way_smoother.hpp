@@ -3,9 +3,9 @@
 // stays as chosen. Frame: world.
 #pragma once
 
-#include "spf/planning/costs/space_time_cost.hpp"
-#include "spf/planning/manoeuvre.hpp"
 #include "spf/planning/planner.hpp"
+#include "spf/planning/space_time/manoeuvre.hpp"
+#include "spf/planning/space_time/space_time_cost.hpp"
 #include "spf/planning/trajectory_optimizer.hpp"
 
 namespace spf {

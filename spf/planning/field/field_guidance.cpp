@@ -1,4 +1,4 @@
-#include "spf/planning/field_guidance.hpp"
+#include "spf/planning/field/field_guidance.hpp"
 
 #include <algorithm>
 #include <cmath>

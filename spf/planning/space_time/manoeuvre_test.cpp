@@ -1,4 +1,4 @@
-#include "spf/planning/manoeuvre.hpp"
+#include "spf/planning/space_time/manoeuvre.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "spf/planning/guide_path.hpp"
-#include "spf/planning/orca_parameters.hpp"
+#include "spf/planning/orca/orca_parameters.hpp"
 #include "spf/planning/planner.hpp"
 #include "spf/robot/robot_parameters.hpp"
 

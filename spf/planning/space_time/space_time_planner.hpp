@@ -3,11 +3,11 @@
 // counted in seconds of travel.
 #pragma once
 
-#include "spf/planning/manoeuvre.hpp"
 #include "spf/planning/planner.hpp"
-#include "spf/planning/space_time_parameters.hpp"
-#include "spf/planning/space_time_risk.hpp"
-#include "spf/planning/way_smoother.hpp"
+#include "spf/planning/space_time/manoeuvre.hpp"
+#include "spf/planning/space_time/space_time_parameters.hpp"
+#include "spf/planning/space_time/space_time_risk.hpp"
+#include "spf/planning/space_time/way_smoother.hpp"
 #include "spf/robot/robot_parameters.hpp"
 
 namespace spf {

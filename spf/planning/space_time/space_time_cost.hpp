@@ -7,7 +7,7 @@
 #pragma once
 
 #include "spf/planning/costs/node_set.hpp"
-#include "spf/planning/space_time_risk.hpp"
+#include "spf/planning/space_time/space_time_risk.hpp"
 
 namespace spf {
 
