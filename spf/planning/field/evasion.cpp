@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/plane.hpp"
 #include "spf/planning/braking.hpp"
+#include "spf/trajectory/constant_acceleration.hpp"
 
 namespace spf {
 namespace {
@@ -21,21 +23,12 @@ Trajectory sidestep(const FlatState& head, const Eigen::Vector2d& velocity, doub
   const double share = std::min(1.0, robot.max_acceleration * duration / std::max(change.norm(), 1e-9));
   const Eigen::Vector2d reached = head.velocity_world + share * change;
   Trajectory trajectory{time};
-  QuinticPiece away;
-  away.duration = duration;
-  away.coefficients.row(0) = head.position_world.transpose();
-  away.coefficients.row(1) = head.velocity_world.transpose();
-  away.coefficients.row(2) = (reached - head.velocity_world).transpose() / (2.0 * duration);
+  const QuinticPiece away =
+      constant_acceleration(head.position_world, head.velocity_world, reached, duration);
   trajectory.append(away);
   const double stop = reached.norm() / robot.max_acceleration;
-  if (stop > 1e-6) {
-    QuinticPiece brake;
-    brake.duration = stop;
-    brake.coefficients.row(0) = away.position(duration).transpose();
-    brake.coefficients.row(1) = reached.transpose();
-    brake.coefficients.row(2) = -reached.transpose() / (2.0 * stop);
-    trajectory.append(brake);
-  }
+  if (stop > 1e-6)
+    trajectory.append(constant_acceleration(away.position(duration), reached, Eigen::Vector2d::Zero(), stop));
   return trajectory;
 }
 
@@ -81,7 +74,7 @@ struct Judge {
         0.65;  // [1] sine of the angle to the obstacle's motion, about least_sideways
     const Eigen::Vector2d way =
         evasion.trajectory.tail_position() - evasion.trajectory.position(evasion.trajectory.start_time());
-    const double across = std::abs(axis.x() * way.y() - axis.y() * way.x());
+    const double across = std::abs(cross(axis, way));
     if (across >= kSideways * way.norm() && way.norm() > kFarEnough * radius) return true;
     return evasion.time_in_fields <= kShort && axis.dot(way) <= 0.0;
   }

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/plane.hpp"
+
 namespace spf {
 namespace {
 
 constexpr std::size_t kMemorySize = 64;
-
-Eigen::Vector2d left_of(const Eigen::Vector2d& direction) {
-  return {-direction.y(), direction.x()};
-}
 
 Eigen::Vector2d mirrored_direction(const Eigen::Vector2d& direction, const Eigen::Vector2d& along) {
   return 2.0 * direction.dot(along) * along - direction;

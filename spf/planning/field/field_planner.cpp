@@ -57,14 +57,6 @@ RobotParameters within_wheel_limits(RobotParameters robot, double speed_toleranc
   return robot;
 }
 
-bool is_finite(const PlanRequest& request) {
-  return std::isfinite(request.time) && request.head.position_world.allFinite() &&
-         request.head.velocity_world.allFinite() && request.head.acceleration_world.allFinite() &&
-         request.goal_world.allFinite() && std::isfinite(request.heading.heading) &&
-         std::isfinite(request.heading.yaw_rate) &&
-         request.goal_heading.value_or(0.0) == request.goal_heading.value_or(0.0);
-}
-
 }  // namespace
 
 FieldPlanner::FieldPlanner(const PlannerParameters& planner, const RobotParameters& robot,
@@ -85,30 +77,25 @@ FieldPlanner::FieldPlanner(const PlannerParameters& planner, const RobotParamete
   best_.sides.reserve(64);
 }
 
-void FieldPlanner::plan(const PlanRequest& request, const GuidePath& guide, PlanResult& result) {
-  result.stats = {};
-  result.risk = 0.0;
-  result.candidates.clear();
-  result.blocking_track = result.blocking_peer = -1;
+void FieldPlanner::plan(const PlanRequest& request, PlanResult& result) {
+  result.clear();
   best_.valid = false;
   last_report_ = {};
   finder_.reset_searches();
 
   // 1. Refuse what cannot be planned; standing at the goal is a plan.
-  if (request.world.map == nullptr || !is_finite(request) || !guide.ready()) {
-    result.outcome = PlanOutcome::invalid_request;
-    result.trajectory = is_finite(request)
-                            ? braking_trajectory(request.head, request.heading, request.time, robot_)
-                            : Trajectory::standing(Eigen::Vector2d::Zero(), 0.0, 1.0);
+  if (!usable(request)) {
+    stand_instead(request, robot_, PlanOutcome::invalid_request, result);
     return;
   }
+  const GuidePath& guide = *request.guide;
   // 2. Peers, obstacles and their fields as believed now.
   prepare(request);
   brake_ = braking_trajectory(request.head, request.heading, request.time, robot_);
-  if (stands_at_goal(request, guide, result)) return;
-
   const GuideOutcome way = guide.outcome();
-  if (way == GuideOutcome::unreachable || way == GuideOutcome::no_free_goal) {
+  const bool no_field = way == GuideOutcome::no_free_goal;
+  if (!no_field && stands_at_goal(request, result)) return;
+  if (no_field || way == GuideOutcome::unreachable) {
     conclude(request, PlanOutcome::no_path, result);
     return;
   }
@@ -134,13 +121,15 @@ void FieldPlanner::prepare(const PlanRequest& request) {
   clearance_.widen_regions([&](int id) { return guidance_.widening(id, request.time); });
 }
 
-bool FieldPlanner::stands_at_goal(const PlanRequest& request, const GuidePath& guide, PlanResult& result) {
+bool FieldPlanner::stands_at_goal(const PlanRequest& request, PlanResult& result) {
   constexpr double kRestSpeed = 0.01;
-  if ((request.head.position_world - guide.goal_used()).norm() > planner_.goal_tolerance) return false;
+  if ((request.head.position_world - request.guide->goal_used()).norm() > planner_.goal_tolerance)
+    return false;
   if (request.head.velocity_world.norm() > kRestSpeed * std::max(1.0, robot_.max_speed)) return false;
   result.trajectory = brake_;
   add_heading(request, result.trajectory);
   result.outcome = PlanOutcome::goal_reached;
+  result.action = PlanAction::follow;
   return true;
 }
 
@@ -281,7 +270,7 @@ bool FieldPlanner::within_limits(const LimitReport& limits, const FlatState& hea
 void FieldPlanner::keep_best(const PlanRequest& request, const OptimizerResult& run, Candidate::Kind kind,
                              const Trajectory& trajectory, double until, PlanResult& result) {
   const double cost = run.cost * side_discount(request.time);
-  if (planner_.keep_candidates)
+  if (request.keep_candidates)
     result.candidates.push_back({kind, cost, risk_of(trajectory, until), false, trajectory});
   if (best_.valid && best_.cost <= cost) return;
   best_.valid = true;
@@ -331,6 +320,7 @@ void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, Pla
   result.stats.searches = finder_.searches();
   if (best_.valid) {
     result.outcome = PlanOutcome::success;
+    result.action = PlanAction::follow;
     result.trajectory = best_.trajectory;
     add_heading(request, result.trajectory);
     result.risk = risk_of(best_.trajectory, best_.moving_until);
@@ -343,11 +333,12 @@ void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, Pla
     if (best_.candidate >= 0) result.candidates[static_cast<std::size_t>(best_.candidate)].chosen = true;
   } else {
     result.outcome = failure;
+    result.action = PlanAction::brake;
     result.trajectory = brake_;
     result.risk = risk_of(result.trajectory, result.trajectory.end_time());
     if (last_report_.kind == ConflictKind::peer) result.blocking_peer = last_report_.id;
     if (last_report_.kind == ConflictKind::obstacle) result.blocking_track = last_report_.id;
-    if (planner_.keep_candidates)
+    if (request.keep_candidates)
       result.candidates.push_back({Candidate::Kind::brake, 0.0, result.risk, true, result.trajectory});
   }
   result.stats.side_changes = guidance_.side_changes(request.time);

@@ -19,18 +19,17 @@
 
 namespace spf {
 
-class FieldPlanner {
+class FieldPlanner final : public Planner {
  public:
   /// Throws std::invalid_argument when parameters are out of range. The working memory is allocated here and
   /// by the first plan.
   FieldPlanner(const PlannerParameters& planner, const RobotParameters& robot, const FieldParameters& field);
 
-  /// Plans from the request's head to the goal, or as far as the horizon. `guide` is up to date for the
-  /// request's map and goal. Only peers of higher priority are planned around, and all that do not move.
-  /// `result` is filled in any case: without an accepted plan its trajectory is a braking one. Whether to
-  /// follow a braking trajectory at once or to keep the committed plan while contact is far is for the caller
-  /// to decide. Ends within PlannerParameters::max_evaluations cost evaluations.
-  void plan(const PlanRequest& request, const GuidePath& guide, PlanResult& result);
+  /// Plans from the request's head to the goal, or as far as the horizon. Only peers that go first are
+  /// planned around, and all that do not move. Without an accepted plan the trajectory is a braking one.
+  /// Whether to follow a braking trajectory at once or to keep the committed plan while contact is far is for
+  /// the caller to decide. Ends within PlannerParameters::max_evaluations cost evaluations.
+  void plan(const PlanRequest& request, PlanResult& result) override;
 
   /// The clearance model as of the last plan; also for checks of committed plans.
   [[nodiscard]] const ClearanceModel& clearance() const { return clearance_; }
@@ -48,7 +47,7 @@ class FieldPlanner {
   };
 
   void prepare(const PlanRequest& request);
-  bool stands_at_goal(const PlanRequest& request, const GuidePath& guide, PlanResult& result);
+  bool stands_at_goal(const PlanRequest& request, PlanResult& result);
   /// One seed, all sides. False when the budget is spent.
   bool try_seed(SeedKind kind, const PlanRequest& request, const LocalTarget& target, PlanResult& result);
   /// One seed, one combination of sides (sides_): runs and checks in turn. False when the budget is spent.

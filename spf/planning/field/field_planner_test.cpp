@@ -44,6 +44,7 @@ struct Scene {
     request.goal_world = goal;
     request.world = {10.0, robot_id, map.get(), &tracks, &peers};
     guide.update(*map, goal, start);
+    request.guide = &guide;
   }
   [[nodiscard]] double box_clearance(const Eigen::Vector2d& p) const {
     double least = 1e9;
@@ -101,7 +102,7 @@ TEST(FieldPlanner, GoesStraightToAGoalInTheOpen) {
   scene.finish({-2.0, 0.0}, {3.0, 0.0});
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
-  planner.plan(scene.request, scene.guide, result);
+  planner.plan(scene.request, result);
   ASSERT_EQ(result.outcome, PlanOutcome::success);
   const Trajectory& plan = result.trajectory;
   EXPECT_LT((plan.tail_position() - scene.request.goal_world).norm(), 1e-9);
@@ -133,7 +134,7 @@ TEST(FieldPlanner, PlansThroughSixSquaresWithoutContact) {
       scene.request.time = scene.request.world.time = time;
       scene.request.head = committed.state(time);
       scene.request.committed = &committed;
-      planner.plan(scene.request, scene.guide, result);
+      planner.plan(scene.request, result);
       ASSERT_TRUE(result.outcome == PlanOutcome::success || result.outcome == PlanOutcome::goal_reached)
           << to_string(result.outcome) << " at " << time;
       committed = result.trajectory;
@@ -158,7 +159,7 @@ TEST(FieldPlanner, LeavesAUShapedTrap) {
   scene.finish({0.5, 0.0}, {6.0, 0.0});
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
-  planner.plan(scene.request, scene.guide, result);
+  planner.plan(scene.request, result);
   ASSERT_EQ(result.outcome, PlanOutcome::success);
   EXPECT_LT(result.trajectory.tail_position().x(), 2.5);
   EXPECT_GT(std::abs(result.trajectory.tail_position().y()), 2.0);
@@ -170,11 +171,10 @@ TEST(FieldPlanner, TriesBothSidesOfAMovingDiscAndKeepsOutOfItsField) {
     Scene scene;
     scene.tracks.push_back(make_track(1, {0.0, y}, {-0.4, 0.0}));
     scene.finish({-3.5, 0.0}, {4.0, 0.0});
-    PlannerParameters parameters;
-    parameters.keep_candidates = true;
-    FieldPlanner planner{parameters, RobotParameters{}, FieldParameters{}};
+    scene.request.keep_candidates = true;
+    FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
     PlanResult result;
-    planner.plan(scene.request, scene.guide, result);
+    planner.plan(scene.request, result);
     ASSERT_EQ(result.outcome, PlanOutcome::success);
     EXPECT_EQ(result.blocking_track, 1);
     double highest = -1e9;
@@ -212,7 +212,7 @@ TEST(FieldPlanner, CountsEveryRunOfTheOptimiser) {
   PlanResult result;
   Scene open;
   open.finish({-3.5, 0.0}, {5.0, 0.0});
-  planner.plan(open.request, open.guide, result);
+  planner.plan(open.request, result);
   ASSERT_EQ(result.outcome, PlanOutcome::success);
   EXPECT_EQ(result.stats.optimiser_calls, 1);
   EXPECT_GT(result.stats.inner_iterations, 1);
@@ -221,7 +221,7 @@ TEST(FieldPlanner, CountsEveryRunOfTheOptimiser) {
   Scene blocked;
   blocked.tracks.push_back(make_track(1, {1.0, 0.05}, {0.0, 0.0}));
   blocked.finish({-3.5, 0.0}, {5.0, 0.0});
-  planner.plan(blocked.request, blocked.guide, result);
+  planner.plan(blocked.request, result);
   ASSERT_EQ(result.outcome, PlanOutcome::success);
   EXPECT_GE(result.stats.optimiser_calls, 2);
   EXPECT_GT(result.stats.inner_iterations, result.stats.optimiser_calls);
@@ -239,7 +239,7 @@ TEST(FieldPlanner, KeepsItsSideWhenBothAreAlike) {
     // The obstacle jitters about the line.
     scene.tracks[0].state.position_world.y() = 0.04 * (i % 2 == 0 ? 1.0 : -1.0);
     scene.tracks[0].time = scene.request.time;
-    planner.plan(scene.request, scene.guide, result);
+    planner.plan(scene.request, result);
     ASSERT_EQ(result.outcome, PlanOutcome::success);
     double extreme = 0.0;
     for (double ahead = 0.0; ahead < result.trajectory.duration(); ahead += 0.02) {
@@ -266,7 +266,7 @@ TEST(FieldPlanner, AvoidsAnObstacleInEveryModelOfIt) {
     scene.finish({-3.5, 0.0}, {5.0, 0.0});
     FieldPlanner planner{with_model(model), RobotParameters{}, FieldParameters{}};
     PlanResult result;
-    planner.plan(scene.request, scene.guide, result);
+    planner.plan(scene.request, result);
     ASSERT_EQ(result.outcome, PlanOutcome::success);
     for (double ahead = 0.0; ahead < 5.0; ahead += 0.01) {
       const Eigen::Vector2d p = result.trajectory.position(10.0 + ahead);
@@ -280,7 +280,7 @@ TEST(FieldPlanner, AvoidsAnObstacleInEveryModelOfIt) {
   scene.finish({-3.5, 0.0}, {5.0, 0.0});
   FieldPlanner blind{with_model(DynamicModel::none), RobotParameters{}, FieldParameters{}};
   PlanResult result;
-  blind.plan(scene.request, scene.guide, result);
+  blind.plan(scene.request, result);
   EXPECT_LT(path_length(result.trajectory), 7.55);
 }
 
@@ -300,7 +300,7 @@ TEST(FieldPlanner, YieldsToAPeerOfHigherPriorityOnly) {
     scene.finish({-3.5, 0.0}, {4.0, 0.0}, 3);
     FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
     PlanResult result;
-    planner.plan(scene.request, scene.guide, result);
+    planner.plan(scene.request, result);
     ASSERT_EQ(result.outcome, PlanOutcome::success);
     double least = 1e9;
     for (double ahead = 0.0; ahead < 5.0; ahead += 0.01)
@@ -320,7 +320,7 @@ TEST(FieldPlanner, StandsAtTheGoalAndTurnsThere) {
   scene.request.goal_heading = 1.0;
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
-  planner.plan(scene.request, scene.guide, result);
+  planner.plan(scene.request, result);
   EXPECT_EQ(result.outcome, PlanOutcome::goal_reached);
   EXPECT_EQ(result.stats.evaluations, 0);
   EXPECT_LT((result.trajectory.position(30.0) - scene.request.goal_world).norm(), 1e-12);
@@ -336,7 +336,7 @@ TEST(FieldPlanner, KeepsTheWheelsWithinTheirLimits) {
   scene.request.goal_heading = 2.5;
   FieldPlanner planner{PlannerParameters{}, robot, FieldParameters{}};
   PlanResult result;
-  planner.plan(scene.request, scene.guide, result);
+  planner.plan(scene.request, result);
   ASSERT_EQ(result.outcome, PlanOutcome::success);
   double fastest = 0.0;
   for (double ahead = 0.0; ahead <= result.trajectory.duration(); ahead += 0.01) {
@@ -361,7 +361,7 @@ TEST(FieldPlanner, DoesNotLoopNearTheGoal) {
     scene.request.head.velocity_world = random.uniform(0.0, 0.4) * offset.normalized();
     FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
     PlanResult result;
-    planner.plan(scene.request, scene.guide, result);
+    planner.plan(scene.request, result);
     EXPECT_TRUE(result.outcome == PlanOutcome::success || result.outcome == PlanOutcome::goal_reached);
     EXPECT_LT(result.trajectory.duration(), 5.0);
     EXPECT_LT(path_length(result.trajectory), offset.norm() + 0.5);
@@ -388,7 +388,7 @@ TEST(FieldPlanner, BrakesWhenThereIsNoSafePlan) {
   scene.request.head.velocity_world = {0.8, 0.0};
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
-  planner.plan(scene.request, scene.guide, result);
+  planner.plan(scene.request, result);
   EXPECT_EQ(result.outcome, PlanOutcome::unsafe);
   EXPECT_EQ(result.blocking_peer, 1);
   const QuinticPiece& last = result.trajectory.piece(result.trajectory.piece_count() - 1);
@@ -410,7 +410,7 @@ TEST(FieldPlanner, StopsInFrontOfWhatStandsOnItsWay) {
   scene.guide.update(*scene.map, {5.0, 0.0}, {-1.5, 0.0});
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
-  planner.plan(scene.request, scene.guide, result);
+  planner.plan(scene.request, result);
   for (double ahead = 0.0; ahead <= result.trajectory.duration(); ahead += 0.01)
     ASSERT_GT((result.trajectory.position(10.0 + ahead) - Eigen::Vector2d{2.5, 0.0}).norm(), 0.6);
   const QuinticPiece& last = result.trajectory.piece(result.trajectory.piece_count() - 1);
@@ -424,7 +424,7 @@ TEST(FieldPlanner, SaysWhenThereIsNoWay) {
   scene.guide.update(*scene.map, {5.0, 0.0}, {-0.5, 0.0});
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
-  planner.plan(scene.request, scene.guide, result);
+  planner.plan(scene.request, result);
   EXPECT_EQ(result.outcome, PlanOutcome::no_path);
   EXPECT_FALSE(result.trajectory.empty());
 }
@@ -436,11 +436,11 @@ TEST(FieldPlanner, RefusesWhatIsNoRequest) {
   PlanResult result;
   PlanRequest bad = scene.request;
   bad.head.velocity_world.x() = std::nan("");
-  planner.plan(bad, scene.guide, result);
+  planner.plan(bad, result);
   EXPECT_EQ(result.outcome, PlanOutcome::invalid_request);
   bad = scene.request;
   bad.world.map = nullptr;
-  planner.plan(bad, scene.guide, result);
+  planner.plan(bad, result);
   EXPECT_EQ(result.outcome, PlanOutcome::invalid_request);
   EXPECT_FALSE(result.trajectory.empty());
   PlannerParameters parameters;
@@ -486,7 +486,7 @@ TEST(FieldPlanner, EndsWithinItsBudgetWhateverTheScene) {
     Scene scene;
     draw_crowd(random, scene);
     FieldPlanner planner{parameters, RobotParameters{}, FieldParameters{}};
-    planner.plan(scene.request, scene.guide, result);
+    planner.plan(scene.request, result);
     EXPECT_LE(result.stats.evaluations, parameters.max_evaluations);
     EXPECT_FALSE(result.trajectory.empty());
     const FlatState head = result.trajectory.state(scene.request.time);
@@ -508,8 +508,8 @@ TEST(FieldPlanner, GivesTheSameBitsAgain) {
   FieldPlanner two{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult first;
   PlanResult second;
-  one.plan(scene.request, scene.guide, first);
-  two.plan(scene.request, scene.guide, second);
+  one.plan(scene.request, first);
+  two.plan(scene.request, second);
   EXPECT_EQ(first.stats.evaluations, second.stats.evaluations);
   EXPECT_EQ(first.trajectory.duration(), second.trajectory.duration());
   EXPECT_EQ(first.trajectory.position(12.0), second.trajectory.position(12.0));
@@ -523,13 +523,13 @@ TEST(FieldPlanner, DoesNotAllocateAfterTheFirstPlan) {
     draw_crowd(random, scene);
     FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
     PlanResult result;
-    planner.plan(scene.request, scene.guide, result);
+    planner.plan(scene.request, result);
     const Trajectory committed = result.trajectory;
     scene.request.committed = &committed;
     scene.request.time += 0.3;
     scene.request.head = committed.state(scene.request.time);
     const AllocationGuard guard;
-    planner.plan(scene.request, scene.guide, result);
+    planner.plan(scene.request, result);
     EXPECT_EQ(guard.allocations(), 0);
   }
 }

@@ -5,6 +5,9 @@
 #include <optional>
 
 #include "spf/math/angles.hpp"
+#include "spf/math/plane.hpp"
+#include "spf/planning/guide_path.hpp"
+#include "spf/trajectory/constant_acceleration.hpp"
 
 namespace spf {
 namespace {
@@ -13,15 +16,6 @@ constexpr double kParallel = 1e-12;        // [1] sine of the angle between line
 constexpr double kSlack = 1e-10;           // [m/s] rounding that is no violation
 constexpr double kRestSpeed = 1e-6;        // [m/s] slower is standing
 constexpr double kStandingDuration = 1.0;  // [s] length of a standing trajectory
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Turned left by a quarter.
-Eigen::Vector2d left_of(const Eigen::Vector2d& v) {
-  return {-v.y(), v.x()};
-}
 
 /// What a linear programme wants: a place to be near, or a direction to go far in.
 struct Objective {
@@ -94,26 +88,8 @@ std::optional<Eigen::Vector2d> nearest_surface(const OccupancyMap& map, const Ei
 /// Constant acceleration (or none) from one velocity to another.
 void append_ramp(Trajectory& trajectory, Eigen::Vector2d& position, const Eigen::Vector2d& from,
                  const Eigen::Vector2d& to, double duration) {
-  QuinticPiece piece;
-  piece.duration = duration;
-  piece.coefficients.row(0) = position.transpose();
-  piece.coefficients.row(1) = from.transpose();
-  piece.coefficients.row(2) = (to - from).transpose() / (2.0 * duration);
-  trajectory.append(piece);
+  trajectory.append(constant_acceleration(position, from, to, duration));
   position += 0.5 * duration * (from + to);
-}
-
-bool usable(const PlanRequest& request, const GuidePath& guide) {
-  return std::isfinite(request.time) && request.head.position_world.allFinite() &&
-         request.head.velocity_world.allFinite() && request.world.map != nullptr && guide.ready();
-}
-
-/// What is left to do without a usable request: go on as before, else stand.
-Trajectory fallback(const PlanRequest& request) {
-  if (request.committed != nullptr && !request.committed->empty()) return *request.committed;
-  const bool somewhere = request.head.position_world.allFinite();
-  return Trajectory::standing(somewhere ? request.head.position_world : Eigen::Vector2d{0.0, 0.0},
-                              std::isfinite(request.time) ? request.time : 0.0, kStandingDuration);
 }
 
 }  // namespace
@@ -187,10 +163,12 @@ Eigen::Vector2d VelocityProgramme::least_violation(const std::vector<HalfPlane>&
   return best;
 }
 
-OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot)
+OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot,
+                         const PlannerParameters& planner)
     : parameters_{validated(parameters)},
       robot_{validated(robot)},
-      programme_{static_cast<std::size_t>(parameters_.max_neighbours + parameters_.static_samples + 1)} {
+      programme_{static_cast<std::size_t>(parameters_.max_neighbours + parameters_.static_samples + 1)},
+      judge_{validated(planner), robot_} {
   const auto neighbours = static_cast<std::size_t>(parameters_.max_neighbours);
   const auto points = static_cast<std::size_t>(parameters_.static_samples + 1);
   surface_points_.reserve(points);
@@ -198,21 +176,16 @@ OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters
   planes_.reserve(neighbours + points);
 }
 
-void OrcaPlanner::plan(const PlanRequest& request, const GuidePath& guide, bool keep_candidates,
-                       PlanResult& result) {
-  result.stats = {};
-  result.candidates.clear();
-  result.blocking_track = -1;
-  result.blocking_peer = -1;
-  result.risk = 0.0;
-  if (!usable(request, guide)) {
-    result.outcome = PlanOutcome::invalid_request;
-    result.trajectory = fallback(request);
+void OrcaPlanner::plan(const PlanRequest& request, PlanResult& result) {
+  result.clear();
+  if (!usable(request) || !request.guide->ready()) {
+    const bool no_goal = usable(request);  // the guide found no free place near it
+    stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
     return;
   }
   // 1. Where to, and who is near.
   collect_neighbours(request);
-  const Eigen::Vector2d wanted = wanted_velocity(request, guide);
+  const Eigen::Vector2d wanted = wanted_velocity(request);
   // 2. What the surroundings leave of the velocities.
   planes_.clear();
   add_static_planes(request, wanted);
@@ -221,22 +194,20 @@ void OrcaPlanner::plan(const PlanRequest& request, const GuidePath& guide, bool 
   // 3. The allowed velocity closest to the wanted one, as a trajectory.
   const VelocityChoice choice = programme_.choose(planes_, hard_count, wanted, robot_.max_speed);
   result.trajectory = trajectory_for(request, choice.velocity);
+  result.action = PlanAction::follow;
   // 4. For the record.
-  const bool stands = wanted.isZero() && result.trajectory.max_speed() < kRestSpeed;
-  result.outcome = stands ? PlanOutcome::goal_reached : PlanOutcome::success;
+  result.risk = choice.feasible ? 0.0 : 1.0;
   result.stats.manoeuvres = 1;
   name_what_blocks(wanted, result);
-  if (!keep_candidates) return;
-  Candidate candidate;
-  candidate.kind = Candidate::Kind::manoeuvre;
-  candidate.cost = (choice.velocity - wanted).norm();
-  candidate.chosen = true;
-  candidate.trajectory = result.trajectory;
-  result.candidates.push_back(candidate);
+  judge_.judge(request, result.trajectory.end_time(), result);
+  if (!request.keep_candidates) return;
+  const double departure = (choice.velocity - wanted).norm();
+  result.candidates.push_back({Candidate::Kind::manoeuvre, departure, result.risk, true, result.trajectory});
 }
 
 /// Along the guide at max_speed, but stoppable at the goal.
-Eigen::Vector2d OrcaPlanner::wanted_velocity(const PlanRequest& request, const GuidePath& guide) const {
+Eigen::Vector2d OrcaPlanner::wanted_velocity(const PlanRequest& request) const {
+  const GuidePath& guide = *request.guide;
   const Eigen::Vector2d& position = request.head.position_world;
   const double distance = guide.cost_to_go(position);
   if (distance < parameters_.goal_tolerance) return Eigen::Vector2d::Zero();
@@ -306,7 +277,7 @@ void OrcaPlanner::collect_neighbours(const PlanRequest& request) {
       const bool shares = peer.state == PeerState::moving && !peer.expired;
       neighbour.encounter = {peer.position(time) - request.head.position_world, request.head.velocity_world,
                              peer.velocity(time), 0.0, shares ? 0.5 : 1.0};
-      neighbour.way_out = {0.0, request.world.robot_id < peer.robot_id ? 1.0 : -1.0};
+      neighbour.way_out = {0.0, goes_first(request.world.rank(), peer.rank()) ? 1.0 : -1.0};
       neighbour.is_peer = true;
       neighbour.id = peer.robot_id;
       collect(neighbour, peer.radius + peer.growth);

@@ -9,9 +9,8 @@
 
 #include <vector>
 
-#include "spf/planning/guide_path.hpp"
 #include "spf/planning/orca/orca_parameters.hpp"
-#include "spf/planning/planner.hpp"
+#include "spf/planning/plan_judge.hpp"
 #include "spf/robot/robot_parameters.hpp"
 
 namespace spf {
@@ -67,16 +66,18 @@ class VelocityProgramme {
   std::vector<HalfPlane> projected_;
 };
 
-class OrcaPlanner {
+class OrcaPlanner final : public Planner {
  public:
-  /// Throws std::invalid_argument when parameters are out of range. All memory is allocated here.
-  OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot);
+  /// Throws std::invalid_argument when parameters are out of range. All memory is allocated here. `planner`
+  /// holds the margins of the clearance check.
+  OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot,
+              const PlannerParameters& planner = {});
 
-  /// Plans from the request's head; `guide` leads to the request's goal. The trajectory goes at the chosen
-  /// velocity for one period, then brakes to rest: a robot that gets no further plan ends standing. The
-  /// outcome is `success` also when nothing satisfies all (the least violation is then driven): the rule has
-  /// no better way out. `keep_candidates` keeps the one candidate (which allocates).
-  void plan(const PlanRequest& request, const GuidePath& guide, bool keep_candidates, PlanResult& result);
+  /// The trajectory goes at the chosen velocity for one period, then brakes to rest: a robot that gets no
+  /// further plan ends standing. Where nothing satisfies all, the least violation is driven, since the rule
+  /// has no better way out. It knows no uncertainty: the risk is 0 or, with a violation, 1. The cost of its
+  /// one candidate is the departure from the wanted velocity [m/s].
+  void plan(const PlanRequest& request, PlanResult& result) override;
 
  private:
   /// Somebody who moves, or may.
@@ -87,7 +88,7 @@ class OrcaPlanner {
     bool is_peer = false;
     int id = 0;
   };
-  [[nodiscard]] Eigen::Vector2d wanted_velocity(const PlanRequest& request, const GuidePath& guide) const;
+  [[nodiscard]] Eigen::Vector2d wanted_velocity(const PlanRequest& request) const;
   void add_static_planes(const PlanRequest& request, const Eigen::Vector2d& wanted);
   void add_surface_point(const PlanRequest& request, const Eigen::Vector2d& sample);
   void collect_neighbours(const PlanRequest& request);
@@ -102,6 +103,7 @@ class OrcaPlanner {
   std::vector<Neighbour> neighbours_;            // nearest first
   std::vector<HalfPlane> planes_;                // of surfaces, then of neighbours_
   VelocityProgramme programme_;
+  PlanJudge judge_;
 };
 
 }  // namespace spf

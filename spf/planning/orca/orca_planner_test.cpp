@@ -235,6 +235,7 @@ class OrcaPlannerTest : public ::testing::Test {
     request.time = time;
     request.head = planning.committed.state(time);
     request.goal_world = planning.goal;
+    request.guide = &planning.guide;
     request.committed = &planning.committed;
     request.world = {time, id, &map, &tracks, &peers};
     return request;
@@ -269,9 +270,9 @@ TEST_F(OrcaPlannerTest, TwoRobotsHeadOnPassWithoutContact) {
       const Peer heard_a = peer_of(a, 0, PeerState::moving);
       const Peer heard_b = peer_of(b, 1, PeerState::moving);
       peers = {heard_b};
-      a.planner.plan(request_of(a, 0, time), a.guide, false, a.result);
+      a.planner.plan(request_of(a, 0, time), a.result);
       peers = {heard_a};
-      b.planner.plan(request_of(b, 1, time), b.guide, false, b.result);
+      b.planner.plan(request_of(b, 1, time), b.result);
       a.committed = a.result.trajectory;
       b.committed = b.result.trajectory;
       for (int j = 0; j <= 10; ++j) {
@@ -302,7 +303,7 @@ TEST_F(OrcaPlannerTest, CrossesTheWayOfAnObstacleThatDoesNotReact) {
         place_obstacle(place(time), {0.0, -0.7});
         tracks.front().time = time;
         tracks.front().id = 7;
-        robot_a.planner.plan(request_of(robot_a, 0, time), robot_a.guide, false, robot_a.result);
+        robot_a.planner.plan(request_of(robot_a, 0, time), robot_a.result);
         named = named || robot_a.result.blocking_track == 7;
         robot_a.committed = robot_a.result.trajectory;
         for (int j = 0; j <= 10; ++j) {
@@ -329,7 +330,7 @@ TEST_F(OrcaPlannerTest, GoesRoundStaticShapesWithoutContact) {
     Robot robot_a = robot_at({-5.0, -0.3}, {5.0, 0.1}, parameters);
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 200; ++k) {
-      robot_a.planner.plan(request_of(robot_a, 0, kPeriod * k), robot_a.guide, false, robot_a.result);
+      robot_a.planner.plan(request_of(robot_a, 0, kPeriod * k), robot_a.result);
       robot_a.committed = robot_a.result.trajectory;
       for (int j = 0; j <= 10; ++j)
         least = std::min(least, map.distance(robot_a.committed.position(kPeriod * k + 0.01 * j)));
@@ -347,7 +348,7 @@ TEST_F(OrcaPlannerTest, HoldsTheWallAgainstAnObstacleThatPushes) {
     tracks.clear();
     place_obstacle({-1.0 + 0.6 * time, 0.05}, {0.6, 0.0});
     tracks.front().time = time;
-    robot_a.planner.plan(request_of(robot_a, 0, time), robot_a.guide, false, robot_a.result);
+    robot_a.planner.plan(request_of(robot_a, 0, time), robot_a.result);
     robot_a.committed = robot_a.result.trajectory;
     EXPECT_GT(map.distance(robot_a.committed.position(time + kPeriod)), robot.radius) << "step " << k;
   }
@@ -361,7 +362,7 @@ TEST_F(OrcaPlannerTest, KeepsTheAccelerationLimitAndEndsStanding) {
     place_obstacle(random_in_disc(random, 3.0), random_in_disc(random, 1.0));
     PlanRequest request = request_of(robot_a, 0, 2.0);
     request.head.velocity_world = random_in_disc(random, robot.max_speed);
-    robot_a.planner.plan(request, robot_a.guide, false, robot_a.result);
+    robot_a.planner.plan(request, robot_a.result);
     const Trajectory& plan = robot_a.result.trajectory;
     EXPECT_LE(plan.max_acceleration(), robot.max_acceleration + kRounding) << "case " << i;
     EXPECT_LE(plan.max_speed(), robot.max_speed + kRounding) << "case " << i;
@@ -379,7 +380,8 @@ TEST_F(OrcaPlannerTest, TakesTheVelocityAtOnceWithoutLimits) {
   Robot robot_a = robot_at({0.0, 0.0}, {6.0, 0.0}, published());
   PlanRequest request = request_of(robot_a, 0, 1.0);
   request.head.velocity_world = {0.0, -1.0};
-  robot_a.planner.plan(request, robot_a.guide, true, robot_a.result);
+  request.keep_candidates = true;
+  robot_a.planner.plan(request, robot_a.result);
   const FlatState at_once = robot_a.result.trajectory.state(1.0);
   EXPECT_NEAR(at_once.velocity_world.x(), robot.max_speed, kRounding);
   EXPECT_NEAR(at_once.velocity_world.y(), 0.0, kRounding);
@@ -396,7 +398,7 @@ TEST_F(OrcaPlannerTest, LeavesHalfToAPeerThatMovesAndNothingToOneThatStands) {
     peers = {peer_of(other, 1, stopped == 1 ? PeerState::stopped : PeerState::moving)};
     PlanRequest request = request_of(robot_a, 0, 0.0);
     request.head.velocity_world = {1.0, 0.0};
-    robot_a.planner.plan(request, robot_a.guide, false, robot_a.result);
+    robot_a.planner.plan(request, robot_a.result);
     EXPECT_EQ(robot_a.result.blocking_peer, 1);
     sideways[static_cast<std::size_t>(stopped)] = robot_a.result.trajectory.state(0.05).velocity_world.y();
   }
@@ -413,7 +415,7 @@ TEST_F(OrcaPlannerTest, TakesItsShareOfAvoidingAnObstacle) {
     Robot robot_a = robot_at({0.0, 0.0}, {6.0, 0.0}, parameters);
     PlanRequest request = request_of(robot_a, 0, 0.0);
     request.head.velocity_world = {1.0, 0.0};
-    robot_a.planner.plan(request, robot_a.guide, false, robot_a.result);
+    robot_a.planner.plan(request, robot_a.result);
     sideways[static_cast<std::size_t>(full)] = robot_a.result.trajectory.state(0.05).velocity_world.y();
   }
   EXPECT_GT(sideways[0], 0.01);
@@ -424,9 +426,9 @@ TEST_F(OrcaPlannerTest, CoincidentRobotsPartInOppositeDirections) {
   Robot a = robot_at({0.0, 0.0}, {3.0, 0.0}, published());
   Robot b = robot_at({0.0, 0.0}, {3.0, 0.0}, published());
   peers = {peer_of(b, 1, PeerState::moving)};
-  a.planner.plan(request_of(a, 0, 0.0), a.guide, false, a.result);
+  a.planner.plan(request_of(a, 0, 0.0), a.result);
   peers = {peer_of(a, 0, PeerState::moving)};
-  b.planner.plan(request_of(b, 1, 0.0), b.guide, false, b.result);
+  b.planner.plan(request_of(b, 1, 0.0), b.result);
   const Vector2d away_a = a.result.trajectory.state(0.05).velocity_world;
   const Vector2d away_b = b.result.trajectory.state(0.05).velocity_world;
   ASSERT_TRUE(away_a.allFinite() && away_b.allFinite());
@@ -442,7 +444,7 @@ TEST_F(OrcaPlannerTest, IsFiniteWhateverLiesUponTheRobot) {
   place_obstacle({0.1, 0.0}, {std::nan(""), 0.0});
   peers = {peer_of(robot_a, 1, PeerState::stopped), peer_of(robot_a, 2, PeerState::moving)};
   for (int k = 0; k < 30; ++k) {
-    robot_a.planner.plan(request_of(robot_a, 0, kPeriod * k), robot_a.guide, false, robot_a.result);
+    robot_a.planner.plan(request_of(robot_a, 0, kPeriod * k), robot_a.result);
     robot_a.committed = robot_a.result.trajectory;
     const FlatState state = robot_a.committed.state(kPeriod * (k + 1));
     ASSERT_TRUE(state.position_world.allFinite() && state.velocity_world.allFinite()) << "step " << k;
@@ -454,18 +456,20 @@ TEST_F(OrcaPlannerTest, AnswersAnUnusableRequestWithSomethingUsable) {
   Robot robot_a = robot_at({1.0, 2.0}, {6.0, 0.0}, OrcaParameters{});
   PlanRequest request = request_of(robot_a, 0, 0.5);
   request.head.velocity_world.x() = std::nan("");
-  robot_a.planner.plan(request, robot_a.guide, false, robot_a.result);
+  robot_a.planner.plan(request, robot_a.result);
   EXPECT_EQ(robot_a.result.outcome, PlanOutcome::invalid_request);
   EXPECT_EQ(robot_a.result.trajectory.tail_position(), Vector2d(1.0, 2.0));
 
   request.committed = nullptr;
-  robot_a.planner.plan(request, robot_a.guide, false, robot_a.result);
+  robot_a.planner.plan(request, robot_a.result);
   EXPECT_EQ(robot_a.result.outcome, PlanOutcome::invalid_request);
   EXPECT_EQ(robot_a.result.trajectory.tail_position(), Vector2d(1.0, 2.0));
 
   const GuidePath not_ready{GuidePathParameters{}};
-  robot_a.planner.plan(request_of(robot_a, 0, 0.5), not_ready, false, robot_a.result);
-  EXPECT_EQ(robot_a.result.outcome, PlanOutcome::invalid_request);
+  request = request_of(robot_a, 0, 0.5);
+  request.guide = &not_ready;
+  robot_a.planner.plan(request, robot_a.result);
+  EXPECT_EQ(robot_a.result.outcome, PlanOutcome::no_path);
 }
 
 TEST_F(OrcaPlannerTest, AllocatesNothing) {
@@ -475,7 +479,7 @@ TEST_F(OrcaPlannerTest, AllocatesNothing) {
   Robot robot_a = robot_at({0.0, 0.0}, {6.0, 0.0}, OrcaParameters{});
   const PlanRequest request = request_of(robot_a, 0, 0.0);
   const AllocationGuard guard;
-  for (int i = 0; i < 10; ++i) robot_a.planner.plan(request, robot_a.guide, false, robot_a.result);
+  for (int i = 0; i < 10; ++i) robot_a.planner.plan(request, robot_a.result);
   EXPECT_EQ(guard.allocations(), 0);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/trajectory/constant_acceleration.hpp"
+
 namespace spf {
 namespace {
 
@@ -12,17 +14,6 @@ Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d&
   const double size = difference.norm();
   if (size <= change) return target;
   return velocity + difference * (change / size);
-}
-
-/// Constant acceleration from one velocity to another.
-QuinticPiece ramp(const Eigen::Vector2d& position, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
-                  double duration) {
-  QuinticPiece piece;
-  piece.duration = duration;
-  piece.coefficients.row(0) = position.transpose();
-  piece.coefficients.row(1) = from.transpose();
-  piece.coefficients.row(2) = (to - from).transpose() / (2.0 * duration);
-  return piece;
 }
 
 }  // namespace
@@ -92,8 +83,8 @@ Trajectory to_trajectory(const RollOut& roll_out, double start_time, const RollO
       ++last;
     }
     const auto to = static_cast<std::size_t>(last);
-    trajectory.append(ramp(roll_out.position_world[from], roll_out.velocity_world[from],
-                           roll_out.velocity_world[to], settings.step * (last - k)));
+    trajectory.append(constant_acceleration(roll_out.position_world[from], roll_out.velocity_world[from],
+                                            roll_out.velocity_world[to], settings.step * (last - k)));
     k = last;
   }
   const auto end = static_cast<std::size_t>(roll_out.steps);
@@ -105,8 +96,8 @@ Trajectory to_trajectory(const RollOut& roll_out, double start_time, const RollO
 void append_braking(const FlatState& end, const RollOutSettings& settings, Trajectory& trajectory) {
   const double speed = end.velocity_world.norm();
   if (speed <= 1e-6) return;
-  trajectory.append(ramp(end.position_world, end.velocity_world, Eigen::Vector2d::Zero(),
-                         speed / settings.max_acceleration));
+  trajectory.append(constant_acceleration(end.position_world, end.velocity_world, Eigen::Vector2d::Zero(),
+                                          speed / settings.max_acceleration));
 }
 
 }  // namespace spf

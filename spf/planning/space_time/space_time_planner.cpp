@@ -22,12 +22,14 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
     : parameters_{validated(parameters)},
       robot_{validated(robot)},
       risk_{parameters_, robot_.radius, robot_.max_speed},
-      smoother_{parameters_, planner, robot_} {
+      smoother_{parameters_, planner, robot_},
+      judge_{validated(planner), robot_} {
   settings_ = settings_of(parameters_, robot_, risk_.steps());
 }
 
 SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
-                                                const GuidePath& guide, double enough) const {
+                                                double enough) const {
+  const GuidePath& guide = *request.guide;
   Score score;
   const auto end = static_cast<std::size_t>(roll_out.steps);
   const Eigen::Vector2d& tail = roll_out.position_world[end];
@@ -66,25 +68,32 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   const double static_chance =
       clearance > 4.0 * softness ? 0.0 : 0.5 * std::erfc(clearance / softness * kSqrtHalf) + depth;
   const double left = (enough - score.time) / std::max(parameters_.risk_price, 1e-9) - static_chance;
+  score.chance = static_chance;
   score.risk = static_chance * parameters_.risk_price;
   if (left < 0.0) return score;
-  score.risk +=
-      risk_.along(roll_out.position_world, roll_out.steps, stop, left, &score.worst) * parameters_.risk_price;
+  const double moving_chance = risk_.along(roll_out.position_world, roll_out.steps, stop, left, &score.worst);
+  score.chance += moving_chance;
+  score.risk += moving_chance * parameters_.risk_price;
   return score;
 }
 
-void SpaceTimePlanner::consider(const Manoeuvre& manoeuvre, const PlanRequest& request,
-                                const GuidePath& guide, PlanResult& result, bool keep, double bonus) {
-  roll_out(manoeuvre, request.head, guide, settings_, trial_);
-  ++result.stats.manoeuvres;
-  const double enough = keep ? std::numeric_limits<double>::infinity() : best_score_.total();
-  Score trial_score = score(trial_, request, guide, enough + bonus);
-  trial_score.time -= bonus;
-  if (keep) keep_candidate(trial_, Candidate::Kind::manoeuvre, trial_score, request, result);
-  if (trial_score.total() >= best_score_.total()) return;
+void SpaceTimePlanner::take_best(const Score& score, int candidate, bool is_previous) {
   best_ = trial_;
-  best_score_ = trial_score;
-  best_is_previous_ = false;
+  best_score_ = score;
+  best_candidate_ = candidate;
+  best_is_previous_ = is_previous;
+}
+
+void SpaceTimePlanner::consider(const Manoeuvre& manoeuvre, const PlanRequest& request, PlanResult& result,
+                                double bonus) {
+  roll_out(manoeuvre, request.head, *request.guide, settings_, trial_);
+  ++result.stats.manoeuvres;
+  const double enough =
+      request.keep_candidates ? std::numeric_limits<double>::infinity() : best_score_.total();
+  Score trial_score = score(trial_, request, enough + bonus);
+  trial_score.time -= bonus;
+  const int candidate = keep_candidate(trial_, Candidate::Kind::manoeuvre, trial_score, request, result);
+  if (trial_score.total() < best_score_.total()) take_best(trial_score, candidate, false);
 }
 
 /// A trajectory as a roll-out over the whole horizon: it is driven until `drive_end`, then its velocity is
@@ -101,24 +110,19 @@ void SpaceTimePlanner::sample(const Trajectory& trajectory, double from, double 
   }
 }
 
-void SpaceTimePlanner::consider_previous(const PlanRequest& request, const GuidePath& guide,
-                                         PlanResult& result, bool keep) {
+void SpaceTimePlanner::consider_previous(const PlanRequest& request, PlanResult& result) {
   const Trajectory* committed = request.committed;
   if (committed == nullptr || committed->empty() || committed->start_time() != plan_start_) return;
   if (request.time > plan_start_ + parameters_.renewal) return;
   if (drive_end_ - request.time < 0.3 * settings_.step * settings_.steps) return;
   sample(*committed, request.time, drive_end_);
-  Score previous = score(trial_, request, guide, std::numeric_limits<double>::infinity());
+  Score previous = score(trial_, request, std::numeric_limits<double>::infinity());
   previous.time -= parameters_.keep_bonus;
-  if (keep) keep_candidate(trial_, Candidate::Kind::previous, previous, request, result);
-  best_ = trial_;
-  best_score_ = previous;
-  best_is_previous_ = true;
+  take_best(previous, keep_candidate(trial_, Candidate::Kind::previous, previous, request, result), true);
 }
 
-void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, const GuidePath& guide,
-                                          PlanResult& result, bool keep) {
-  const Eigen::Vector2d ahead = guide.direction(request.head.position_world);
+void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult& result) {
+  const Eigen::Vector2d ahead = request.guide->direction(request.head.position_world);
   const double base = ahead.squaredNorm() > 0.0 ? std::atan2(ahead.y(), ahead.x()) : 0.0;
   const std::array<double, 2> speeds{settings_.max_speed, parameters_.slow_fraction * settings_.max_speed};
   for (int i = 0; i < parameters_.headings; ++i) {
@@ -127,64 +131,63 @@ void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, const Guid
     for (const double speed : speeds) {
       const Eigen::Vector2d velocity = direction * speed;
       const double always = settings_.step * settings_.steps;
-      consider({velocity, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, guide, result, keep);
-      consider({velocity, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, guide, result, keep);
-      consider({velocity, always, Manoeuvre::Then::hold}, request, guide, result, keep);
-      consider({velocity, parameters_.short_sidestep, Manoeuvre::Then::brake}, request, guide, result, keep);
+      consider({velocity, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, result);
+      consider({velocity, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, result);
+      consider({velocity, always, Manoeuvre::Then::hold}, request, result);
+      consider({velocity, parameters_.short_sidestep, Manoeuvre::Then::brake}, request, result);
     }
   }
 }
 
-void SpaceTimePlanner::plan(const PlanRequest& request, const GuidePath& guide, bool keep_candidates,
-                            PlanResult& result) {
-  result.stats = {};
-  result.candidates.clear();
-  result.blocking_track = -1;
-  result.blocking_peer = -1;
+/// What shapes the plan is named, then every other way is weighed.
+void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& direct, PlanResult& result) {
+  if (direct.worst >= 0) {
+    const SpaceTimeRisk::Entity& entity = risk_.entity(direct.worst);
+    (entity.is_peer ? result.blocking_peer : result.blocking_track) = entity.id;
+  }
+  const Eigen::Vector2d still = Eigen::Vector2d::Zero();
+  const bool slow = request.head.velocity_world.norm() < 0.3 * robot_.max_speed;
+  consider({still, 0.0, Manoeuvre::Then::brake}, request, result, slow ? parameters_.stand_bonus : 0.0);
+  consider({still, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, result);
+  consider({still, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, result);
+  consider_sidesteps(request, result);
+}
+
+void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
+  result.clear();
+  if (!usable(request) || !request.guide->ready()) {
+    const bool no_goal = usable(request);  // the guide found no free place near it
+    stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
+    return;
+  }
   best_score_ = {};
   best_score_.time = std::numeric_limits<double>::infinity();
   best_is_previous_ = false;
+  best_candidate_ = -1;
 
   // 1. Where everything that moves is believed to be over the horizon.
   risk_.prepare(request);
   // 2. The plan under way and the direct way; enough when the direct way is free.
-  consider_previous(request, guide, result, keep_candidates);
-  const Eigen::Vector2d still = Eigen::Vector2d::Zero();
-  const Manoeuvre direct{still, 0.0, Manoeuvre::Then::goal};
-  roll_out(direct, request.head, guide, settings_, trial_);
-  const Score direct_score = score(trial_, request, guide, std::numeric_limits<double>::infinity());
-  consider(direct, request, guide, result, keep_candidates);
-  if (direct_score.risk > parameters_.accepted_risk) {
-    // 3. What shapes the plan is named, then every other way is weighed.
-    if (direct_score.worst >= 0) {
-      const SpaceTimeRisk::Entity& entity = risk_.entity(direct_score.worst);
-      (entity.is_peer ? result.blocking_peer : result.blocking_track) = entity.id;
-    }
-    const bool slow = request.head.velocity_world.norm() < 0.3 * robot_.max_speed;
-    consider({still, 0.0, Manoeuvre::Then::brake}, request, guide, result, keep_candidates,
-             slow ? parameters_.stand_bonus : 0.0);
-    consider({still, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, guide, result,
-             keep_candidates);
-    consider({still, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, guide, result,
-             keep_candidates);
-    consider_sidesteps(request, guide, result, keep_candidates);
-  }
+  consider_previous(request, result);
+  const Manoeuvre direct{Eigen::Vector2d::Zero(), 0.0, Manoeuvre::Then::goal};
+  roll_out(direct, request.head, *request.guide, settings_, trial_);
+  const Score direct_score = score(trial_, request, std::numeric_limits<double>::infinity());
+  consider(direct, request, result);
+  // 3. Else all ways there are.
+  if (direct_score.risk > parameters_.accepted_risk) consider_all(request, direct_score, result);
   // 4. The best of them, made smooth, is the plan.
-  finish(request, guide, result, keep_candidates);
+  finish(request, result);
 }
 
-void SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,
-                                      const PlanRequest& request, PlanResult& result) const {
-  Candidate candidate;
-  candidate.kind = kind;
-  candidate.cost = score.total();
-  candidate.risk = score.risk;
-  candidate.trajectory = to_trajectory(roll_out, request.time, settings_);
-  result.candidates.push_back(candidate);
+int SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,
+                                     const PlanRequest& request, PlanResult& result) const {
+  if (!request.keep_candidates) return -1;
+  result.candidates.push_back({kind, score.total(), std::min(score.chance, 1.0), false,
+                               to_trajectory(roll_out, request.time, settings_)});
+  return static_cast<int>(result.candidates.size()) - 1;
 }
 
-bool SpaceTimePlanner::smooth_best(const PlanRequest& request, const GuidePath& guide, PlanResult& result,
-                                   bool keep) {
+bool SpaceTimePlanner::smooth_best(const PlanRequest& request, PlanResult& result) {
   if (!parameters_.smoothing) return false;
   // Standing is smooth as it is; optimised, it would lean away from the risk and back again.
   const Eigen::Vector2d& tail = best_.position_world[static_cast<std::size_t>(best_.steps)];
@@ -196,29 +199,29 @@ bool SpaceTimePlanner::smooth_best(const PlanRequest& request, const GuidePath& 
   sample(smooth_, request.time, drive_end);
   const double enough = best_score_.total() + parameters_.smoothing_tolerance;
   const Score smooth_score =
-      score(trial_, request, guide, keep ? std::numeric_limits<double>::infinity() : enough);
-  if (keep) keep_candidate(trial_, Candidate::Kind::optimised, smooth_score, request, result);
+      score(trial_, request, request.keep_candidates ? std::numeric_limits<double>::infinity() : enough);
+  const int candidate = keep_candidate(trial_, Candidate::Kind::optimised, smooth_score, request, result);
   if (smooth_score.total() > enough) return false;
   best_score_ = smooth_score;
+  best_candidate_ = candidate;
   drive_end_ = drive_end;
   return true;
 }
 
-void SpaceTimePlanner::finish(const PlanRequest& request, const GuidePath& guide, PlanResult& result,
-                              bool keep) {
-  result.outcome = PlanOutcome::success;
+void SpaceTimePlanner::finish(const PlanRequest& request, PlanResult& result) {
   if (best_is_previous_) {
+    result.action = PlanAction::keep;
     result.trajectory = *request.committed;
   } else {
+    result.action = PlanAction::follow;
     plan_start_ = request.time;
     drive_end_ = request.time + settings_.step * best_.steps;
-    const bool smooth = smooth_best(request, guide, result, keep);
+    const bool smooth = smooth_best(request, result);
     result.trajectory = smooth ? smooth_ : to_trajectory(best_, request.time, settings_);
   }
-  result.risk = best_score_.risk;
-  for (Candidate& candidate : result.candidates) {
-    candidate.chosen = candidate.cost == best_score_.total();
-  }
+  result.risk = std::min(best_score_.chance, 1.0);
+  judge_.judge(request, drive_end_, result);
+  if (best_candidate_ >= 0) result.candidates[static_cast<std::size_t>(best_candidate_)].chosen = true;
 }
 
 }  // namespace spf
