@@ -14,6 +14,7 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> files;
   ScenarioOptions scenario;
+  MethodTable methods;
 };
 
 std::string scene_text(const sim::Scenario& scenario) {
@@ -37,11 +38,11 @@ std::string scene_text(const sim::Scenario& scenario) {
 
 void print_summary(const std::string& file, const Study& study) {
   const sim::SimulationParameters& simulation = study.simulation;
-  std::cout << file << ": good\n  family " << enum_name(study.family) << ", method "
-            << enum_name(study.method) << ", seed " << study.seed << "\n  "
-            << scene_text(make_trial(study, 0)) << "\n  noise " << enum_name(simulation.noise.model) << " at "
-            << simulation.noise.level << " Sigma, map " << enum_name(simulation.sensing.map)
-            << ", detections " << enum_name(simulation.sensing.detections) << ", tracking "
+  std::cout << file << ": good\n  family " << enum_name(study.family) << ", method " << study.method.name()
+            << ", seed " << study.seed << "\n  " << scene_text(make_trial(study, 0)) << "\n  noise "
+            << enum_name(simulation.noise.model) << " at " << simulation.noise.level << " Sigma, map "
+            << enum_name(simulation.sensing.map) << ", detections "
+            << enum_name(simulation.sensing.detections) << ", tracking "
             << enum_name(simulation.trial.tracking) << "\n";
 }
 
@@ -49,7 +50,7 @@ int check(const CheckOptions& options) {
   bool good = true;
   for (const std::string& file : options.files) {
     try {
-      print_summary(file, read_study(file, options.scenario.to_settings()));
+      print_summary(file, read_study(file, options.scenario.to_settings(), options.methods));
     } catch (const InputError& error) {
       std::cout.flush();
       std::cerr << error.what() << "\n";
@@ -61,9 +62,10 @@ int check(const CheckOptions& options) {
 
 }  // namespace
 
-Verb add_check(CLI::App& program) {
+Verb add_check(CLI::App& program, const MethodTable& methods) {
   CLI::App* app = program.add_subcommand("check", "Validate scenario files and say what they mean");
   const auto options = std::make_shared<CheckOptions>();
+  options->methods = methods;
   app->add_option("scenario", options->files, "scenario files")->type_name("FILE")->required();
   options->scenario.add_to(*app);
   app->footer(

@@ -33,11 +33,11 @@ struct ScenarioOptions {
   [[nodiscard]] std::vector<Setting> to_settings() const;
 };
 
-Verb add_run(CLI::App& program);
-Verb add_experiment(CLI::App& program);
-Verb add_report(CLI::App& program);
-Verb add_check(CLI::App& program);
-Verb add_parameters(CLI::App& program);
+Verb add_run(CLI::App& program, const MethodTable& methods);
+Verb add_experiment(CLI::App& program, const MethodTable& methods);
+Verb add_report(CLI::App& program, const MethodTable& methods);
+Verb add_check(CLI::App& program, const MethodTable& methods);
+Verb add_parameters(CLI::App& program, const MethodTable& methods);
 Verb add_crowd(CLI::App& program);
 
 }  // namespace spf

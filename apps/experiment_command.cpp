@@ -38,6 +38,7 @@ struct ExperimentOptions {
   std::string json;
   bool quiet = false;
   std::vector<std::string> command;
+  MethodTable known_methods;
 };
 
 /// "[a, b]"
@@ -72,7 +73,8 @@ CampaignPlan read_plan(const ExperimentOptions& options) {
   for (const CampaignPreset& preset : campaign_presets()) {
     names.emplace_back(preset.name);
     if (preset.name == options.campaign)
-      return campaign_from_text(std::string{preset.text}, options.campaign, ".", settings, scene);
+      return campaign_from_text(std::string{preset.text}, options.campaign, ".", settings, scene,
+                                options.known_methods);
   }
   std::error_code error;
   if (options.campaign.find_first_of("/.") == std::string::npos && !fs::exists(options.campaign, error)) {
@@ -81,7 +83,7 @@ CampaignPlan read_plan(const ExperimentOptions& options) {
                      "is no campaign: " + in_brackets(names) + ", or a file" +
                          (meant ? "; did you mean " + *meant + "?" : "")};
   }
-  return read_campaign(options.campaign, settings, scene);
+  return read_campaign(options.campaign, settings, scene, options.known_methods);
 }
 
 /// Leaves the methods and trackings that were asked for, by the names of the rows.
@@ -280,9 +282,10 @@ CLI::Option* add_words(CLI::App& app, const char* name, std::vector<std::string>
 
 }  // namespace
 
-Verb add_experiment(CLI::App& program) {
+Verb add_experiment(CLI::App& program, const MethodTable& methods) {
   CLI::App* app = program.add_subcommand("experiment", "Run a campaign: methods x scenes x noise x trials");
   const auto options = std::make_shared<ExperimentOptions>();
+  options->known_methods = methods;
   app->add_option("campaign", options->campaign,
                   "table2, table3, runtime, wheels, scenes, or a campaign file (docs/campaigns.md)")
       ->type_name("NAME|FILE")

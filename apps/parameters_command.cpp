@@ -14,16 +14,17 @@ struct ParametersOptions {
   bool markdown = false;
   bool json = false;
   std::string explained;  ///< a scenario file
+  MethodTable methods;
 };
 
 /// A scenario file with every key written out and explained.
-std::string explained(const std::string& file) {
+std::string explained(const std::string& file, const MethodTable& methods) {
   return "# Every key that a scenario may have, explained; a file needs only those that differ from the "
          "defaults.\n"
          "# Made by `spf parameters --explain FILE`, which writes any scenario in this form: each key with "
          "its\n"
          "# meaning and range. Units are SI, angles in radians, positions in the world frame.\n" +
-         to_yaml_text(read_study(file), true);
+         to_yaml_text(read_study(file, {}, methods), true);
 }
 
 std::string as_table(const std::vector<ParameterRow>& rows) {
@@ -51,7 +52,7 @@ std::string as_json(const std::vector<ParameterRow>& rows) {
 
 int print_parameters(const ParametersOptions& options) {
   if (!options.explained.empty())
-    std::cout << explained(options.explained);
+    std::cout << explained(options.explained, options.methods);
   else if (options.markdown)
     std::cout << parameter_page();
   else
@@ -61,10 +62,11 @@ int print_parameters(const ParametersOptions& options) {
 
 }  // namespace
 
-Verb add_parameters(CLI::App& program) {
+Verb add_parameters(CLI::App& program, const MethodTable& methods) {
   CLI::App* app =
       program.add_subcommand("parameters", "Print every parameter: default, unit, range, meaning");
   const auto options = std::make_shared<ParametersOptions>();
+  options->methods = methods;
   CLI::Option* markdown = app->add_flag("--markdown", options->markdown,
                                         "as the page docs/parameters.md\n"
                                         "  spf parameters --explain scenarios/t2.yaml");

@@ -32,6 +32,7 @@ struct ReportOptions {
   std::string replays = "20";  ///< a number, or all
   std::string charts;
   bool quiet = false;
+  MethodTable methods;
 };
 
 /// The deepest folder that holds all of them.
@@ -162,7 +163,7 @@ class Report {
     std::error_code error;
     if (fs::exists(folder / name, error)) return address;
     progress_.show("replay of trial " + std::to_string(record.key.trial) + " of " + cell_text(record.key));
-    Cell again = cell_of(read_study(parts.scenarios[cell].string()));
+    Cell again = cell_of(read_study(parts.scenarios[cell].string(), {}, options_.methods));
     again.key = record.key;
     const std::optional<ReplayPage> page = replay_page(again, record, steady_seconds, interrupted);
     if (!page) return "";
@@ -194,10 +195,11 @@ int report(const ReportOptions& options) {
 
 }  // namespace
 
-Verb add_report(CLI::App& program) {
+Verb add_report(CLI::App& program, const MethodTable& methods) {
   CLI::App* app =
       program.add_subcommand("report", "Merge results and make a page of tables, charts and failures");
   const auto options = std::make_shared<ReportOptions>();
+  options->methods = methods;
   app->add_option("folders", options->folders,
                   "folders of spf experiment or spf run; parts of one campaign are merged")
       ->type_name("DIR")

@@ -28,6 +28,7 @@ struct RunOptions {
   std::string json;
   bool quiet = false;
   std::vector<std::string> command;
+  MethodTable methods;
 };
 
 std::string time_left(double elapsed, std::size_t done, int all) {
@@ -159,7 +160,7 @@ class Run {
 };
 
 int run(const RunOptions& options) {
-  Study study = read_study(options.file, options.scenario.to_settings());
+  Study study = read_study(options.file, options.scenario.to_settings(), options.methods);
   const std::string problem = trials_problem(study, options.first, options.trials.value_or(1));
   if (!problem.empty()) throw InputError{{options.trials ? "--trials" : "--first", 0, 0}, problem};
   Run work{options, std::move(study)};
@@ -168,9 +169,10 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
-Verb add_run(CLI::App& program) {
+Verb add_run(CLI::App& program, const MethodTable& methods) {
   CLI::App* app = program.add_subcommand("run", "Simulate a scenario, once or over many trials");
   const auto options = std::make_shared<RunOptions>();
+  options->methods = methods;
   app->add_option("scenario", options->file, "scenario file")->type_name("FILE")->required();
   app->add_option("--trials", options->trials,
                   "repeat over this many trials; a family draws a new scene for each")

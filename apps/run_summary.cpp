@@ -118,7 +118,7 @@ std::string run_json(const Study& study, const RunFacts& facts) {
                                     {"date", today()},
                                     {"command", facts.command},
                                     {"family", enum_name(study.family)},
-                                    {"method", enum_name(study.method)},
+                                    {"method", study.method.name()},
                                     {"seed", study.seed},
                                     {"first", facts.first},
                                     {"trials", facts.trials},

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "spf/math/random_stream.hpp"
-#include "spf/planning/field_planner.hpp"
+#include "spf/planning/field/field_planner.hpp"
 
 namespace spf {
 namespace {

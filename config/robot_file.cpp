@@ -7,9 +7,9 @@
 namespace spf {
 namespace {
 
-RobotFile read_document(const YamlNode& root, InputProblems problems) {
+RobotFile read_document(const YamlNode& root, const MethodTable& methods, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
-  Method method = RobotFile{}.method;
+  MethodChoice method{kDefaultMethod, methods};
   RobotParameters robot;
   InputProblems ignored;  // the whole is read again below
   if (const YamlNode* node = root.find("method")) read_choice({*node, "method", ignored}, method);
@@ -22,26 +22,26 @@ RobotFile read_document(const YamlNode& root, InputProblems problems) {
 
 }  // namespace
 
-RobotFile default_robot_file(Method method, const RobotParameters& robot) {
+RobotFile default_robot_file(const MethodChoice& method, const RobotParameters& robot) {
   RobotFile file;
   file.method = method;
   file.robot = robot;
-  file.agent = with_method(defaults_for(robot), method);
+  file.agent = with_method(defaults_for(robot), method.method());
   file.host = scaled(file.host, RobotScale{robot});
   return file;
 }
 
-RobotFile read_robot_file(const std::string& path) {
-  if (path.empty()) return default_robot_file(RobotFile{}.method, {});
+RobotFile read_robot_file(const std::string& path, const MethodTable& methods) {
+  if (path.empty()) return default_robot_file({kDefaultMethod, methods}, {});
   InputProblems problems;
   const YamlNode root = read_yaml_file(path, problems);
-  return read_document(root, std::move(problems));
+  return read_document(root, methods, std::move(problems));
 }
 
-RobotFile robot_file_from_text(const std::string& text, const std::string& name) {
+RobotFile robot_file_from_text(const std::string& text, const std::string& name, const MethodTable& methods) {
   InputProblems problems;
   const YamlNode root = parse_yaml(text, name, problems);
-  return read_document(root, std::move(problems));
+  return read_document(root, methods, std::move(problems));
 }
 
 std::string to_yaml_text(const RobotFile& file, bool explains) {

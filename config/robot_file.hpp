@@ -6,6 +6,7 @@
 
 #include "config/hiding_visitor.hpp"
 #include "config/input_problem.hpp"
+#include "config/method_choice.hpp"
 #include "host/host_parameters.hpp"
 #include "spf/team/agent_parameters.hpp"
 
@@ -13,7 +14,7 @@ namespace spf {
 
 /// A robot's file with all its defaults filled in.
 struct RobotFile {
-  Method method = Method::space_time;
+  MethodChoice method;
   RobotParameters robot;
   AgentParameters agent;  ///< without its robot: that is `robot`
   host::HostParameters host;
@@ -22,20 +23,21 @@ struct RobotFile {
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("method", self.method, "how the robot plans and tracks: a set of agent parameters");
     visit.group("robot", self.robot);
-    PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{
-        self.agent, {"robot", "generator", "ideal_tracking"}};
+    PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{self.agent, {"robot"}};
     visit.group("agent", agent);
     visit.group("host", self.host);
   }
 };
 
 /// What a file that says no more than this starts from: many defaults follow the robot (ScaledUnit).
-[[nodiscard]] RobotFile default_robot_file(Method method, const RobotParameters& robot);
+[[nodiscard]] RobotFile default_robot_file(const MethodChoice& method, const RobotParameters& robot);
 
-/// Throws InputError with every problem. An empty path gives the defaults.
-[[nodiscard]] RobotFile read_robot_file(const std::string& path);
+/// Throws InputError with every problem. An empty path gives the defaults. `methods` are those that a file
+/// may name.
+[[nodiscard]] RobotFile read_robot_file(const std::string& path, const MethodTable& methods = {});
 /// The same from text; `name` stands for the file in messages.
-[[nodiscard]] RobotFile robot_file_from_text(const std::string& text, const std::string& name);
+[[nodiscard]] RobotFile robot_file_from_text(const std::string& text, const std::string& name,
+                                             const MethodTable& methods = {});
 
 /// The file that gives this, every key written out.
 [[nodiscard]] std::string to_yaml_text(const RobotFile& file, bool explains = false);

@@ -25,13 +25,14 @@ TEST(RobotFile, ReadsWhatConcernsOneRobot) {
       "method: spf_empc\nrobot: {radius: 0.25}\nagent: {team: {stale_time: 0.2}}\nhost: {relies_on_scan: "
       "false}\n",
       "robot.yaml");
-  EXPECT_EQ(file.method, Method::spf_empc);
+  EXPECT_EQ(file.method.name(), "spf_empc");
   EXPECT_EQ(file.host.relies_on_scan, false);
   EXPECT_EQ(file.host.relies_on_obstacles, true);
   const AgentParameters agent = agent_parameters(file);
   EXPECT_EQ(agent.robot.radius, 0.25);
   EXPECT_EQ(agent.team.stale_time, 0.2);
-  EXPECT_EQ(agent.generator, with_method(AgentParameters{}, Method::spf_empc).generator);
+  EXPECT_EQ(agent.tracker.observer.kind, ObserverKind::eso);
+  EXPECT_EQ(typeid(*agent.make_planner(agent)), typeid(*MethodTable{}.at("spf_empc").make_planner(agent)));
 }
 
 TEST(RobotFile, RefusesWithTheMessagesOfTheProgram) {
@@ -45,7 +46,7 @@ TEST(RobotFile, RefusesWithTheMessagesOfTheProgram) {
 }
 
 TEST(RobotFile, AnEmptyPathGivesTheDefaultsAndAMissingFileIsRefused) {
-  EXPECT_EQ(read_robot_file("").method, Method::space_time);
+  EXPECT_EQ(read_robot_file("").method.name(), "space_time");
   EXPECT_THROW(static_cast<void>(read_robot_file("/no/such/robot.yaml")), InputError);
 }
 

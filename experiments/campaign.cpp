@@ -35,7 +35,7 @@ struct SceneSource {
 /// A method or variant that runs.
 struct Contender {
   std::string name;
-  std::optional<Method> method;  ///< none: the scenario's own
+  std::optional<std::string> method;  ///< none: the scenario's own
   const MethodVariant* variant = nullptr;
   std::size_t index = 0;  ///< in its list
 };
@@ -44,11 +44,12 @@ struct Contender {
 class CellMaker {
  public:
   CellMaker(const YamlNode& root, const Campaign& campaign, const std::filesystem::path& folder,
-            const std::vector<Setting>& scene_settings, InputProblems& problems)
+            const std::vector<Setting>& scene_settings, const MethodTable& known, InputProblems& problems)
       : root_{root},
         campaign_{campaign},
         folder_{folder},
         scene_settings_{scene_settings},
+        known_{known},
         problems_{problems} {}
 
   std::vector<Cell> make() {
@@ -108,7 +109,7 @@ class CellMaker {
   std::vector<Contender> all_contenders() const {
     std::vector<Contender> all;
     for (std::size_t i = 0; i < campaign_.methods.size(); ++i)
-      all.push_back({enum_name(campaign_.methods[i]), campaign_.methods[i], nullptr, i});
+      all.push_back({campaign_.methods[i], campaign_.methods[i], nullptr, i});
     for (std::size_t i = 0; i < campaign_.variants.size(); ++i)
       all.push_back({campaign_.variants[i].name, campaign_.variants[i].method, &campaign_.variants[i], i});
     if (all.empty()) all.push_back({"", std::nullopt, nullptr, 0});
@@ -126,11 +127,23 @@ class CellMaker {
       if (contender.variant != nullptr &&
           (contender.name.empty() || !std::all_of(contender.name.begin(), contender.name.end(), is_plain)))
         refuse(path, "must be letters, digits, dots, dashes and underscores");
+      if (contender.method) check_method(contender);
       names.push_back(contender.name);
     }
     if (campaign_.name.empty() || !std::all_of(campaign_.name.begin(), campaign_.name.end(), is_plain))
       refuse("name", "must be letters, digits, dots, dashes and underscores");
     for (std::size_t i = 0; i < campaign_.conditions.size(); ++i) check_condition(i, names);
+  }
+
+  void check_method(const Contender& contender) {
+    if (known_.find(*contender.method) != nullptr) return;
+    const bool is_variant = contender.variant != nullptr;
+    const std::string index = "[" + std::to_string(contender.index) + "]";
+    const std::string path = is_variant ? "variants" + index + ".method" : "methods" + index;
+    const std::vector<std::string> names = method_names(known_);
+    const std::optional<std::string> meant = closest_name(*contender.method, names);
+    refuse(path, "must be one of " + choices_of(MethodChoice{kDefaultMethod, known_}) +
+                     (meant ? "; did you mean " + *meant + "?" : ""));
   }
 
   void check_condition(std::size_t index, const std::vector<std::string>& names) {
@@ -164,8 +177,7 @@ class CellMaker {
   [[nodiscard]] std::vector<Setting> settings_of(const Choice& choice) const {
     std::vector<Setting> all;
     if (root_.find("seed") != nullptr) all.push_back({"seed=" + to_text(campaign_.seed), place_of("seed")});
-    if (choice.contender.method)
-      all.push_back({std::string{"method="} + enum_name(*choice.contender.method), place_of("methods")});
+    if (choice.contender.method) all.push_back({"method=" + *choice.contender.method, place_of("methods")});
     if (choice.noise)
       all.push_back({std::string{"noise.model="} + enum_name(*choice.noise), place_of("noise")});
     if (choice.level) all.push_back({"noise.level=" + to_text(*choice.level), place_of("levels")});
@@ -190,8 +202,8 @@ class CellMaker {
     try {
       const std::vector<Setting> settings = settings_of(choice);
       Cell cell = cell_of(choice.scene.file.empty() ? study_from_text("family: " + choice.scene.name + "\n",
-                                                                      choice.scene.name, settings)
-                                                    : read_study(choice.scene.file, settings));
+                                                                      choice.scene.name, settings, known_)
+                                                    : read_study(choice.scene.file, settings, known_));
       cell.key.family = choice.scene.name;
       if (!choice.contender.name.empty()) cell.key.method = choice.contender.name;
       cell.key.condition = choice.condition.name;
@@ -216,6 +228,7 @@ class CellMaker {
   const Campaign& campaign_;
   std::filesystem::path folder_;
   const std::vector<Setting>& scene_settings_;
+  const MethodTable& known_;
   InputProblems& problems_;
   std::vector<Cell> cells_;
   std::set<std::string> told_;
@@ -223,12 +236,13 @@ class CellMaker {
 
 CampaignPlan read_document(YamlNode root, const std::filesystem::path& folder,
                            const std::vector<Setting>& settings, const std::vector<Setting>& scene_settings,
-                           InputProblems problems) {
+                           const MethodTable& known, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();
   for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
   CampaignPlan plan;
   read_parameters(root, plan.campaign, problems);
-  if (problems.empty()) plan.cells = CellMaker{root, plan.campaign, folder, scene_settings, problems}.make();
+  if (problems.empty())
+    plan.cells = CellMaker{root, plan.campaign, folder, scene_settings, known, problems}.make();
   problems.throw_if_any();
   return plan;
 }
@@ -239,7 +253,7 @@ Cell cell_of(Study study) {
   Cell cell;
   cell.setup = hash_text(identity_text(study));
   cell.key.family = enum_name(study.family);
-  cell.key.method = enum_name(study.method);
+  cell.key.method = study.method.name();
   cell.key.noise = enum_name(study.simulation.noise.model);
   cell.key.level = study.simulation.noise.level;
   cell.key.tracking = enum_name(study.simulation.trial.tracking);
@@ -259,19 +273,19 @@ CampaignPlan single_cell(Study study, int first, int trials) {
 }
 
 CampaignPlan read_campaign(const std::string& path, const std::vector<Setting>& settings,
-                           const std::vector<Setting>& scene_settings) {
+                           const std::vector<Setting>& scene_settings, const MethodTable& known) {
   InputProblems problems;
   YamlNode root = read_yaml_file(path, problems);
   return read_document(std::move(root), std::filesystem::path{path}.parent_path(), settings, scene_settings,
-                       std::move(problems));
+                       known, std::move(problems));
 }
 
 CampaignPlan campaign_from_text(const std::string& text, const std::string& name,
                                 const std::filesystem::path& folder, const std::vector<Setting>& settings,
-                                const std::vector<Setting>& scene_settings) {
+                                const std::vector<Setting>& scene_settings, const MethodTable& known) {
   InputProblems problems;
   YamlNode root = parse_yaml(text, name, problems);
-  return read_document(std::move(root), folder, settings, scene_settings, std::move(problems));
+  return read_document(std::move(root), folder, settings, scene_settings, known, std::move(problems));
 }
 
 Campaign read_campaign_header(const std::string& path) {

@@ -36,7 +36,7 @@ struct EnumNames<CampaignFigure> {
 /// A method with settings of its own, under a name of its own.
 struct MethodVariant {
   std::string name;
-  Method method = Method::space_time;
+  std::string method;
   std::vector<std::string> set;             ///< key=value
   std::vector<sim::TrackingMode> tracking;  ///< instead of the campaign's; empty: as the campaign
 
@@ -71,7 +71,7 @@ struct Campaign {
   std::string title;  ///< one line
   std::vector<sim::Family> families;
   std::vector<std::string> scenarios;  ///< files, relative to the campaign's
-  std::vector<Method> methods;
+  std::vector<std::string> methods;
   std::vector<MethodVariant> variants;
   std::vector<Condition> conditions;
   std::vector<sim::NoiseModel> noise;
@@ -125,14 +125,16 @@ struct CampaignPlan {
 [[nodiscard]] CampaignPlan single_cell(Study study, int first, int trials);
 
 /// Reads a campaign file. `settings` are written over its own keys, `scene_settings` over every scenario's.
-/// Throws InputError with every problem.
+/// `known` are the methods that it may name. Throws InputError with every problem.
 [[nodiscard]] CampaignPlan read_campaign(const std::string& path, const std::vector<Setting>& settings = {},
-                                         const std::vector<Setting>& scene_settings = {});
+                                         const std::vector<Setting>& scene_settings = {},
+                                         const MethodTable& known = {});
 /// The same from text; `name` stands for the file in messages, `folder` is where its scenarios lie.
 [[nodiscard]] CampaignPlan campaign_from_text(const std::string& text, const std::string& name,
                                               const std::filesystem::path& folder,
                                               const std::vector<Setting>& settings = {},
-                                              const std::vector<Setting>& scene_settings = {});
+                                              const std::vector<Setting>& scene_settings = {},
+                                              const MethodTable& known = {});
 
 /// The campaign alone, of a file whose scenarios are not looked at. Throws InputError.
 [[nodiscard]] Campaign read_campaign_header(const std::string& path);

@@ -97,7 +97,7 @@ std::size_t place_in(const List& list, const std::string& value, Name name) {
 std::array<std::size_t, 6> rank_of(const Campaign& campaign, const TrialKey& key) {
   const auto enumerator = [](auto value) { return std::string{enum_name(value)}; };
   const auto named = [](const auto& entry) { return entry.name; };
-  std::size_t method = place_in(campaign.methods, key.method, enumerator);
+  std::size_t method = place_in(campaign.methods, key.method, [](const std::string& name) { return name; });
   if (method == campaign.methods.size()) method += place_in(campaign.variants, key.method, named);
   std::size_t scene = place_in(campaign.families, key.family, enumerator);
   if (scene == campaign.families.size())

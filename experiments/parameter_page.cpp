@@ -45,27 +45,27 @@ std::string changes_text(const Study& base, const Study& changed) {
 }
 
 std::string presets() {
-  const Method standard = Study{}.method;
+  const MethodChoice standard;
   const Study base = default_study(kShownFamily, standard);
-  Table methods{{{"method", Alignment::left}, {"sets", Alignment::left}}};
-  for (const auto& [method, name] : EnumNames<Method>::values)
-    if (method != standard)
-      methods.add_row(
-          {"`" + std::string{name} + "`", changes_text(base, default_study(kShownFamily, method))});
+  Table methods{{{"method", Alignment::left}, {"what", Alignment::left}, {"sets", Alignment::left}}};
+  for (const Method& method : standard.table().all())
+    if (method.name != standard.name())
+      methods.add_row({"`" + method.name + "`", method.what,
+                       changes_text(base, default_study(kShownFamily, MethodChoice{method.name}))});
   Table families{{{"family", Alignment::left}, {"sets", Alignment::left}}};
   for (const auto& [family, name] : EnumNames<SceneFamily>::values)
     if (family != kShownFamily && family != SceneFamily::explicit_scene)
       families.add_row({"`" + std::string{name} + "`", changes_text(base, default_study(family, standard))});
-  return "## What a method sets\n\nA method is a set of parameters of one code path. Besides its generator "
-         "it sets, compared with `" +
-         std::string{enum_name(standard)} + "`:\n\n" + methods.to_markdown() +
+  return "## What a method sets\n\nA method is a planner and a set of parameters. Besides its planner it "
+         "sets, compared with `" +
+         standard.name() + "`:\n\n" + methods.to_markdown() +
          "\n## What a family sets\n\nCompared with `t2`:\n\n" + families.to_markdown();
 }
 
 }  // namespace
 
 std::vector<ParameterRow> all_parameters() {
-  const Method standard = Study{}.method;
+  const MethodChoice standard;
   std::vector<ParameterRow> rows = parameter_rows(default_study(kShownFamily, standard));
   // Keys of explicit scenes follow those that come before any group.
   std::vector<ParameterRow> of_scene;

@@ -112,7 +112,6 @@ ReplayStateKind kind_of(const sim::RecordedRobot& robot) {
     case StandReason::planner_failed:
     case StandReason::stale_pose:
     case StandReason::stale_scan:
-    case StandReason::lost:
       return ReplayStateKind::trouble;
   }
   return ReplayStateKind::trouble;

@@ -7,6 +7,7 @@
 #include "experiments/hexadecimal.hpp"
 #include "experiments/trial_watch.hpp"
 #include "report/table.hpp"
+#include "sim/recording.hpp"
 #include "sim/simulation.hpp"
 
 namespace spf {

@@ -268,6 +268,7 @@ void PlannerHost::plan(double now) {
   output_.broadcast = std::move(told);
   TrajectoryMessage& plan = output_.plan;
   plan.robot_id = robot_id_;
+  plan.priority = agent_parameters_.team.priority;
   plan.sequence = counts_.plans;
   plan.sent_time = now;
   plan.expiry_time = now + agent_parameters_.team.message_lifetime;

@@ -64,7 +64,6 @@ OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& para
 
 AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent) {
   agent.robot = scenario.robot;
-  agent.ideal_tracking = scenario.simulation.trial.tracking == TrackingMode::ideal;
   agent.team.goal_tolerance =
       std::min(agent.team.goal_tolerance, 0.5 * scenario.simulation.trial.arrival_distance);
   return agent;

@@ -3,6 +3,7 @@
 #include <deque>
 #include <utility>
 
+#include "sim/agent_meter.hpp"
 #include "sim/radio.hpp"
 #include "sim/recorder.hpp"
 #include "sim/world.hpp"
@@ -75,9 +76,10 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
     if (listener != nullptr) listeners.push_back(listener);
   const std::size_t count = scenario.robots.size();
+  const StateSource source = ideal() ? StateSource::as_planned : StateSource::measured;
   for (std::size_t i = 0; i < count; ++i) {
     const RobotTask& task = scenario.robots[i];
-    agents.emplace_back(static_cast<int>(i), parameters, map, task.start, 0.0);
+    agents.emplace_back(static_cast<int>(i), parameters, map, task.start, 0.0, source);
     agents.back().set_goal(task.goal_world, task.goal_heading);
   }
   wheel_speeds.assign(count, Eigen::Vector3d::Zero());

@@ -24,9 +24,8 @@ struct SimulationOptions {
 
 class Simulation {
  public:
-  /// `agent` is the fleet's parameters; its robot, ideal_tracking and (from below) goal tolerance are the
-  /// scenario's. Throws std::invalid_argument with all reasons when the scenario or the parameters cannot be
-  /// used.
+  /// `agent` is the fleet's parameters; its robot and (from below) goal tolerance are the scenario's. Throws
+  /// std::invalid_argument with all reasons when the scenario or the parameters cannot be used.
   Simulation(const Scenario& scenario, const AgentParameters& agent, const SimulationOptions& options = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;

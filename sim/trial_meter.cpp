@@ -71,34 +71,4 @@ void TrialMeter::finish(double time, const std::vector<RobotTruth>& robots, cons
   result.robots = robots_;
 }
 
-void AgentMeter::planned(int robot, const PlanResult& plan) {
-  RobotResult& result = robots_[static_cast<std::size_t>(robot)];
-  ++result.plans;
-  if (plan.outcome != PlanOutcome::success && plan.outcome != PlanOutcome::goal_reached)
-    ++result.failed_plans;
-  result.optimiser_calls += plan.stats.optimiser_calls;
-  result.inner_iterations += plan.stats.inner_iterations;
-  result.evaluations += plan.stats.evaluations;
-  result.manoeuvres += plan.stats.manoeuvres;
-}
-
-void AgentMeter::stood(int robot, const AgentStatus& status, double duration) {
-  if (status.reason == StandReason::none || status.reason == StandReason::arrived) return;
-  robots_[static_cast<std::size_t>(robot)].stood[static_cast<std::size_t>(status.reason)] += duration;
-}
-
-void AgentMeter::finish(TrialResult& result) const {
-  for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const RobotResult& from = robots_[i];
-    RobotResult& to = result.robots[i];
-    to.plans = from.plans;
-    to.failed_plans = from.failed_plans;
-    to.optimiser_calls = from.optimiser_calls;
-    to.inner_iterations = from.inner_iterations;
-    to.evaluations = from.evaluations;
-    to.manoeuvres = from.manoeuvres;
-    to.stood = from.stood;
-  }
-}
-
 }  // namespace spf::sim

@@ -1,5 +1,4 @@
-// Adds up the figures of a trial while it runs (docs/protocol.md, Figures): of the truth, and of the agents
-// in it.
+// Adds up the figures of a trial while it runs (docs/protocol.md, Figures): those of the truth.
 #pragma once
 
 #include <vector>
@@ -34,22 +33,6 @@ class TrialMeter {
   std::vector<RobotResult> robots_;
   std::vector<int> arrivals_;
   std::uint64_t digest_ = 0;
-};
-
-/// What the agents did: the planning effort and the standing about of a RobotResult.
-class AgentMeter {
- public:
-  explicit AgentMeter(std::size_t robots) : robots_(robots) {}
-
-  /// A planning call of a robot ended.
-  void planned(int robot, const PlanResult& plan);
-  /// For `duration` [s] the robot has had this status.
-  void stood(int robot, const AgentStatus& status, double duration);
-  /// Fills it into a result that holds the truth of the same robots.
-  void finish(TrialResult& result) const;
-
- private:
-  std::vector<RobotResult> robots_;  // only the fields that are metered here
 };
 
 }  // namespace spf::sim

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "sim/contact.hpp"
-#include "sim/recording.hpp"
 #include "spf/math/parameters.hpp"
-#include "spf/team/robot_agent.hpp"
+#include "spf/team/agent_status.hpp"
 
 namespace spf::sim {
+
+struct Recording;
 
 enum class TrialOutcome { success, collision, overtime };
 
@@ -33,8 +34,6 @@ namespace spf::sim {
 [[nodiscard]] inline const char* to_string(TrialOutcome outcome) {
   return enum_name(outcome);
 }
-
-inline constexpr std::size_t kStandReasons = static_cast<std::size_t>(StandReason::paused) + 1;
 
 /// Of one robot. Lengths and times count until it first arrived, or to the end of the trial.
 struct RobotResult {

@@ -19,8 +19,8 @@ namespace {
 
 /// The choice at a key of the document; `fallback` when it is absent or no such name (the reader reports
 /// that).
-template <class E>
-E peek(const YamlNode& root, const char* key, E fallback) {
+template <class Choice>
+Choice peek(const YamlNode& root, const char* key, Choice fallback) {
   InputProblems ignored;
   if (const YamlNode* node = root.find(key)) read_choice({*node, key, ignored}, fallback);
   return fallback;
@@ -201,11 +201,12 @@ void read_recording(const YamlNode& root, const std::string& file, Study& study,
   if (!error) study.crowd = absolute.lexically_normal().string();
 }
 
-Study read_document(YamlNode root, const std::vector<Setting>& settings, InputProblems problems) {
+Study read_document(YamlNode root, const std::vector<Setting>& settings, const MethodTable& methods,
+                    InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
   for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
   const SceneFamily family = peek_family(root);
-  const Method method = peek(root, "method", Study{}.method);
+  const MethodChoice method = peek(root, "method", MethodChoice{kDefaultMethod, methods});
   Study study = default_study(family, method, peek_robot(root, default_study(family, method).robot));
   const std::string file = root.place.source;
   read_parameters(root, study, problems);
@@ -222,18 +223,18 @@ Study read_document(YamlNode root, const std::vector<Setting>& settings, InputPr
 
 }  // namespace
 
-Study default_study(SceneFamily family, Method method) {
+Study default_study(SceneFamily family, const MethodChoice& method) {
   RobotParameters robot;
   if (family != SceneFamily::explicit_scene)
     robot = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family))).robot;
   return default_study(family, method, robot);
 }
 
-Study default_study(SceneFamily family, Method method, const RobotParameters& robot) {
+Study default_study(SceneFamily family, const MethodChoice& method, const RobotParameters& robot) {
   Study study;
   study.family = family;
   study.method = method;
-  study.agent = with_method(defaults_for(robot), method);
+  study.agent = with_method(defaults_for(robot), method.method());
   RobotParameters sized_for;  // the robot that the family's numbers are for
   if (family != SceneFamily::explicit_scene) {
     const sim::FamilySetup setup = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family)));
@@ -246,17 +247,17 @@ Study default_study(SceneFamily family, Method method, const RobotParameters& ro
   return study;
 }
 
-Study read_study(const std::string& path, const std::vector<Setting>& settings) {
+Study read_study(const std::string& path, const std::vector<Setting>& settings, const MethodTable& methods) {
   InputProblems problems;
   YamlNode root = read_yaml_file(path, problems);
-  return read_document(std::move(root), settings, std::move(problems));
+  return read_document(std::move(root), settings, methods, std::move(problems));
 }
 
-Study study_from_text(const std::string& text, const std::string& name,
-                      const std::vector<Setting>& settings) {
+Study study_from_text(const std::string& text, const std::string& name, const std::vector<Setting>& settings,
+                      const MethodTable& methods) {
   InputProblems problems;
   YamlNode root = parse_yaml(text, name, problems);
-  return read_document(std::move(root), settings, std::move(problems));
+  return read_document(std::move(root), settings, methods, std::move(problems));
 }
 
 std::string to_yaml_text(const Study& study, bool explains) {
@@ -309,7 +310,6 @@ std::string identity_text(const Study& study) {
 AgentParameters agent_parameters(const Study& study) {
   AgentParameters parameters = study.agent;
   parameters.robot = study.robot;
-  parameters.ideal_tracking = study.simulation.trial.tracking == sim::TrackingMode::ideal;
   const sim::PoseNoiseParameters& noise = study.simulation.pose_noise;
   ObserverParameters& observer = parameters.tracker.observer;
   if (observer.pose_sigma == 0.0) observer.pose_sigma = noise.position_sigma;

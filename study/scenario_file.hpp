@@ -18,9 +18,9 @@
 
 #include "config/hiding_visitor.hpp"
 #include "config/input_problem.hpp"
+#include "config/method_choice.hpp"
 #include "sim/families.hpp"
 #include "sim/scenario.hpp"
-#include "spf/team/agent_parameters.hpp"
 
 namespace spf {
 
@@ -141,7 +141,7 @@ struct ExplicitScene {
 struct Study {
   SceneFamily family = SceneFamily::explicit_scene;
   std::uint64_t seed = sim::kDefaultSeed;
-  Method method = Method::space_time;
+  MethodChoice method;
   sim::LayoutParameters layout;  ///< of a drawn family
   std::string crowd;             ///< of ped: path of the recording, absolute once read
   std::shared_ptr<const sim::CrowdRecording> recording;  ///< what stands there; not among the fields
@@ -155,9 +155,10 @@ struct Study {
 };
 
 /// The defaults of a family and a method.
-[[nodiscard]] Study default_study(SceneFamily family, Method method);
+[[nodiscard]] Study default_study(SceneFamily family, const MethodChoice& method);
 /// The same for another robot than the family's: defaults that follow the robot (ScaledUnit) are its own.
-[[nodiscard]] Study default_study(SceneFamily family, Method method, const RobotParameters& robot);
+[[nodiscard]] Study default_study(SceneFamily family, const MethodChoice& method,
+                                  const RobotParameters& robot);
 
 /// One value written over the file's.
 struct Setting {
@@ -166,11 +167,14 @@ struct Setting {
 };
 
 /// Reads a file with settings written over it. Throws InputError with every problem: of
-/// form, of single values, and of the scene (robots inside obstacles, ...).
-[[nodiscard]] Study read_study(const std::string& path, const std::vector<Setting>& settings = {});
+/// form, of single values, and of the scene (robots inside obstacles, ...). `methods` are those that it may
+/// name.
+[[nodiscard]] Study read_study(const std::string& path, const std::vector<Setting>& settings = {},
+                               const MethodTable& methods = {});
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] Study study_from_text(const std::string& text, const std::string& name,
-                                    const std::vector<Setting>& settings = {});
+                                    const std::vector<Setting>& settings = {},
+                                    const MethodTable& methods = {});
 
 /// The file that gives this study, every key written out.
 /// With `explains`, each with a comment.
@@ -216,8 +220,7 @@ void Study::visit_fields(Self& self, Visitor&& visit) {
   }
   visit.group("robot", self.robot);
   sim::SimulationParameters::visit_fields(self.simulation, visit);
-  PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{
-      self.agent, {"robot", "generator", "ideal_tracking"}};
+  PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{self.agent, {"robot"}};
   visit.group("agent", agent);
 }
 

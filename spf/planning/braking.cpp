@@ -65,20 +65,4 @@ Trajectory braking_trajectory(const FlatState& head, const HeadingState& heading
   return trajectory;
 }
 
-Trajectory stretched(const Trajectory& trajectory, double factor) {
-  Trajectory result{trajectory.start_time()};
-  for (int i = 0; i < trajectory.piece_count(); ++i) {
-    QuinticPiece piece = trajectory.piece(i);
-    piece.duration *= factor;
-    double scale = 1.0;
-    for (int k = 0; k < 6; ++k) {
-      piece.coefficients.row(k) *= scale;
-      scale /= factor;
-    }
-    result.append(piece);
-  }
-  result.set_heading(trajectory.heading());
-  return result;
-}
-
 }  // namespace spf

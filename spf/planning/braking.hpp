@@ -18,9 +18,4 @@ namespace spf {
 [[nodiscard]] HeadingProfile stopping_heading(const HeadingState& heading, double start_time,
                                               const RobotParameters& robot);
 
-/// The same path in `factor` times the time, beginning at the same instant: velocities are divided by the
-/// factor, accelerations by its square. For seeds, and for plans that start at rest. The heading is kept as
-/// it is.
-[[nodiscard]] Trajectory stretched(const Trajectory& trajectory, double factor);
-
 }  // namespace spf

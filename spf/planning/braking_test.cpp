@@ -82,18 +82,5 @@ TEST(Braking, StopsTheHeadingToo) {
   }
 }
 
-TEST(Stretched, FollowsTheSamePathMoreSlowly) {
-  FlatState head;
-  head.velocity_world = {1.0, 0.3};
-  const Trajectory original = braking_trajectory(head, {}, 2.0, RobotParameters{});
-  const Trajectory slow = stretched(original, 1.7);
-  EXPECT_NEAR(slow.duration(), 1.7 * original.duration(), 1e-12);
-  for (int i = 0; i <= 20; ++i) {
-    const double ahead = original.duration() * i / 20.0;
-    EXPECT_LT((slow.position(2.0 + 1.7 * ahead) - original.position(2.0 + ahead)).norm(), 1e-12);
-  }
-  EXPECT_NEAR(slow.max_speed(), original.max_speed() / 1.7, 1e-9);
-}
-
 }  // namespace
 }  // namespace spf

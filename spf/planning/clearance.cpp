@@ -102,7 +102,7 @@ void ClearanceModel::prepare(const WorldSnapshot& world, double time, PeerSelect
   if (world.peers != nullptr) {
     for (const Peer& peer : *world.peers) {
       const bool stands = peer.state != PeerState::moving || peer.expired;
-      if (selection == PeerSelection::all || stands || peer.robot_id < world.robot_id) add_peer(peer);
+      if (selection == PeerSelection::all || stands || goes_first(peer.rank(), world.rank())) add_peer(peer);
     }
   }
   if (world.tracks != nullptr && planner_.dynamic_model != DynamicModel::none)

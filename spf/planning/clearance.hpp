@@ -38,8 +38,8 @@ struct DangerRegion {
 /// Which peers count.
 enum class PeerSelection {
   all,       ///< the safety check of a committed plan
-  yield_to,  ///< planning: higher priority (smaller number), and all that stopped, brake, arrived or fell
-             ///< silent
+  yield_to,  ///< planning: those who go first (spf/world/priority.hpp), and all that stopped, brake, arrived
+             ///< or fell silent
 };
 
 /// What is checked, and how far. Times are absolute.

@@ -1,6 +1,21 @@
 #include "spf/planning/planner.hpp"
 
+#include <cmath>
+
+#include "spf/planning/braking.hpp"
+
 namespace spf {
+namespace {
+
+constexpr double kStandingDuration = 1.0;  // [s] any length will do: a trajectory stands at its ends
+
+bool finite_head(const PlanRequest& request) {
+  return std::isfinite(request.time) && request.head.position_world.allFinite() &&
+         request.head.velocity_world.allFinite() && request.head.acceleration_world.allFinite() &&
+         std::isfinite(request.heading.heading) && std::isfinite(request.heading.yaw_rate);
+}
+
+}  // namespace
 
 const char* to_string(PlanOutcome outcome) {
   switch (outcome) {
@@ -18,6 +33,42 @@ const char* to_string(PlanOutcome outcome) {
       return "invalid request";
   }
   return "?";
+}
+
+void PlanResult::clear() {
+  outcome = PlanOutcome::invalid_request;
+  action = PlanAction::brake;
+  risk = 0.0;
+  blocking_track = -1;
+  blocking_peer = -1;
+  stats = {};
+  candidates.clear();
+}
+
+bool usable(const PlanRequest& request) {
+  return finite_head(request) && request.goal_world.allFinite() &&
+         std::isfinite(request.goal_heading.value_or(0.0)) && std::isfinite(request.position_sigma) &&
+         request.world.map != nullptr && request.guide != nullptr;
+}
+
+void stand_instead(const PlanRequest& request, const RobotParameters& robot, PlanOutcome outcome,
+                   PlanResult& result) {
+  result.outcome = outcome;
+  const bool planned = request.committed != nullptr && !request.committed->empty();
+  if (planned && (request.braking || !finite_head(request))) {
+    result.action = PlanAction::keep;
+    result.trajectory = *request.committed;
+    return;
+  }
+  result.action = PlanAction::brake;
+  if (finite_head(request)) {
+    result.trajectory = braking_trajectory(request.head, request.heading, request.time, robot);
+    return;
+  }
+  const Eigen::Vector2d& here = request.head.position_world;
+  result.trajectory =
+      Trajectory::standing(here.allFinite() ? here : Eigen::Vector2d{0.0, 0.0},
+                           std::isfinite(request.time) ? request.time : 0.0, kStandingDuration);
 }
 
 }  // namespace spf

@@ -79,7 +79,6 @@ struct PlannerParameters {
   double acceleration_tolerance = 0.1;  ///< [1] accepted excess over max_acceleration
   double slow_factor = 1.8;             ///< [1] stretch of time of the slow seed
   double goal_tolerance = 0.01;         ///< [m] closer and at rest: standing is the plan
-  bool keep_candidates = false;         ///< keeps every candidate's trajectory in the result
   CostWeights weights;
   LbfgsParameters optimizer;
 
@@ -125,8 +124,6 @@ struct PlannerParameters {
     visit("slow_factor", self.slow_factor, "1", Range{1.0, 10.0}, "stretch of time of the slow seed");
     visit("goal_tolerance", self.goal_tolerance, kMetresBySize, kLength,
           "closer and at rest, standing is the plan");
-    visit("keep_candidates", self.keep_candidates,
-          "keep every candidate's trajectory in the result (allocates)");
     visit.group("weights", self.weights);
     visit.group("optimizer", self.optimizer);
   }

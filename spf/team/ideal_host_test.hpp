@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "spf/math/angles.hpp"
+#include "spf/team/method_table.hpp"
 #include "spf/team/robot_agent.hpp"
 
 namespace spf {

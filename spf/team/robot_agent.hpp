@@ -12,28 +12,13 @@
 
 #include "spf/planning/planner.hpp"
 #include "spf/team/agent_parameters.hpp"
+#include "spf/team/agent_status.hpp"
 #include "spf/world/observation.hpp"
 #include "spf/world/occupancy_map.hpp"
 #include "spf/world/peer_table.hpp"
 #include "spf/world/trajectory_message.hpp"
 
 namespace spf {
-
-/// Why a robot stands still (or is about to); `none` while it moves as planned.
-enum class StandReason {
-  none,
-  no_goal,
-  arrived,
-  obstacle_ahead,  ///< waits for a moving obstacle (culprit = its id)
-  peer_ahead,      ///< waits for a teammate (culprit = its number)
-  no_path,         ///< the static map leaves no way to the goal
-  planner_failed,  ///< no safe plan within the budget; stands and tries again
-  stale_pose,      ///< no pose measurement for too long
-  stale_scan,      ///< no observation for too long
-  lost,            ///< too far from the plan
-  paused,          ///< told to
-};
-[[nodiscard]] const char* to_string(StandReason reason);
 
 /// What arrived since the last step; empty members mean "nothing new".
 struct AgentInput {
@@ -42,18 +27,10 @@ struct AgentInput {
   std::vector<TrajectoryMessage> messages;
 };
 
-/// Where the robot thinks it is, and how sure it is of it.
-struct AgentEstimate {
-  Pose2 pose_world;
-  Eigen::Vector3d disturbance_world = Eigen::Vector3d::Zero();  ///< [m/s, m/s, rad/s] eq. 17
-  double position_sigma = 0.0;                                  ///< [m] per axis
-  bool valid = false;
-};
-
-struct AgentStatus {
-  PeerState state = PeerState::stopped;
-  StandReason reason = StandReason::no_goal;
-  int culprit = -1;  ///< id of the obstacle or peer behind the reason, -1 = none
+/// Where the agent takes its own position from. Not a parameter: the host knows how it moves the robot.
+enum class StateSource {
+  measured,    ///< from pose measurements, by its observer
+  as_planned,  ///< the host moves the robot exactly as planned: it is where its plan says, and needs no poses
 };
 
 struct AgentOutput {
@@ -65,19 +42,20 @@ struct AgentOutput {
 
 class RobotAgent {
  public:
-  /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed). Throws
-  /// std::invalid_argument when parameters are out of range.
+  /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed), `time`
+  /// [s] the present. Throws std::invalid_argument when parameters are out of range.
   RobotAgent(int robot_id, const AgentParameters& parameters, const OccupancyMap& map, const Pose2& start,
-             double time);
+             double time, StateSource source = StateSource::measured);
   ~RobotAgent();
   RobotAgent(RobotAgent&&) noexcept;
   RobotAgent& operator=(RobotAgent&&) noexcept;
 
+  /// Throws std::invalid_argument when the goal is not finite.
   void set_goal(const Eigen::Vector2d& goal_world, std::optional<double> goal_heading = std::nullopt);
   void clear_goal();
   void set_paused(bool paused);
-  /// Peers (sorted) whose discs explain no scan returns, since they are not where they say: what is seen
-  /// there is static. They are kept away from as before. Replaces the ones named before.
+  /// Peers (sorted) whose discs mask no scan returns, since they are not where they say: what is seen there
+  /// is static. They are kept away from as before. Replaces the ones named before.
   void set_distrusted(std::vector<int> robot_ids);
 
   /// The sequential form: receive, then plan and track where due. Call it at the rate of the pose
@@ -91,7 +69,7 @@ class RobotAgent {
   [[nodiscard]] bool control_due(double time) const;
   /// Plans and commits; returns the message to broadcast when there is one.
   std::optional<TrajectoryMessage> plan(double time);
-  /// One control tick.
+  /// One control tick; returns the rim speeds of the wheels [m/s], to be held until the next.
   Eigen::Vector3d track(double time);
 
   [[nodiscard]] int robot_id() const;

@@ -9,16 +9,10 @@
 namespace spf {
 namespace {
 
-AgentParameters with_generator(Generator generator) {
-  AgentParameters parameters;
-  parameters.generator = generator;
-  return parameters;
-}
-
 /// Both ways to plan have to keep what the agent promises.
-class RobotAgentTest : public ::testing::TestWithParam<Generator> {
+class RobotAgentTest : public ::testing::TestWithParam<const char*> {
  protected:
-  [[nodiscard]] AgentParameters parameters() const { return with_generator(GetParam()); }
+  [[nodiscard]] AgentParameters parameters() const { return with_method(AgentParameters{}, GetParam()); }
 
   /// Plans are accepted with 5 % more speed and 10 % more acceleration (PlannerParameters); some are looked
   /// at ten times a piece only, between which it may be a little more.
@@ -35,9 +29,8 @@ const TrueBox kBoxAhead{{-1.0, -1.2}, {1.0, 0.8}};
 /// A wall across the room with a gap of 1.2 m at the origin: enough for one robot of 0.6 m.
 const std::vector<TrueBox> kWallWithGap{{{-0.5, 0.6}, {0.5, 10.0}}, {{-0.5, -10.0}, {0.5, -0.6}}};
 
-INSTANTIATE_TEST_SUITE_P(Generators, RobotAgentTest,
-                         ::testing::Values(Generator::space_time, Generator::field),
-                         [](const auto& parameter) { return std::string{enum_name(parameter.param)}; });
+INSTANTIATE_TEST_SUITE_P(Methods, RobotAgentTest, ::testing::Values("space_time", "spf_empc"),
+                         [](const auto& parameter) { return std::string{parameter.param}; });
 
 TEST_P(RobotAgentTest, ReachesItsGoalAroundAKnownBox) {
   IdealHost host{parameters(), map_of({kBoxAhead}), {-4.0, 0.0}};
@@ -224,8 +217,8 @@ TEST_P(RobotAgentTest, NamesThePeerThatIsParkedInTheOnlyGap) {
 
 /// ES2 alone does not: a disc that it takes for standing is no danger before it touches.
 TEST(RobotAgent, GoesOnDodgingAfterItHasArrived) {
-  for (const Method method : {Method::space_time, Method::spf_empc, Method::es2_constant_velocity}) {
-    SCOPED_TRACE(enum_name(method));
+  for (const char* method : {"space_time", "spf_empc", "es2_constant_velocity"}) {
+    SCOPED_TRACE(method);
     IdealHost host{with_method(AgentParameters{}, method), empty_map(), {-2.0, 0.0}};
     host.agent.set_goal({0.0, 0.0});
     ASSERT_TRUE(host.arrives_within(8.0));
@@ -296,10 +289,10 @@ TEST_P(RobotAgentTest, AvoidsAPeerOfLowerPriorityThatDrivesIntoIt) {
   expect_limits(host);
 }
 
-TEST(RobotAgent, OfTheFieldGeneratorBrakesForAPeerOfLowerPriority) {
+TEST(RobotAgent, OfThePapersMethodBrakesForAPeerOfLowerPriority) {
   // Beside walls there is no way round the peer, which ought to yield and does not: it stops only in the gap.
   const std::vector<TrueBox> corridor{{{-6.0, 0.6}, {6.0, 2.0}}, {{-6.0, -2.0}, {6.0, -0.6}}};
-  AgentParameters parameters = with_generator(Generator::field);
+  const AgentParameters parameters = with_method(AgentParameters{}, "spf_empc");
   IdealHost host{parameters, map_of(corridor), {-4.0, 0.0}, 1};
   host.boxes = corridor;
   const Trajectory course = straight({4.5, 0.0}, {-0.7, 0.0}, 0.0, 4.0);  // then it stands at 1.7
@@ -348,14 +341,14 @@ TEST_P(RobotAgentTest, LetsTheDiscOfASilentPeerGrowAndForgetsIt) {
   EXPECT_TRUE(host.agent.peers().empty());
 }
 
-class RobotAgentMethodTest : public ::testing::TestWithParam<Method> {};
+class RobotAgentMethodTest : public ::testing::TestWithParam<std::string> {};
 
 INSTANTIATE_TEST_SUITE_P(Methods, RobotAgentMethodTest, ::testing::ValuesIn([] {
-                           std::vector<Method> methods;
-                           for (const auto& named : EnumNames<Method>::values) methods.push_back(named.first);
-                           return methods;
+                           std::vector<std::string> names;
+                           for (const Method& method : MethodTable{}.all()) names.push_back(method.name);
+                           return names;
                          }()),
-                         [](const auto& parameter) { return std::string{enum_name(parameter.param)}; });
+                         [](const auto& parameter) { return std::string{parameter.param}; });
 
 TEST_P(RobotAgentMethodTest, CrossesAShortWayPastAnObstacleAndAPeer) {
   IdealHost host{

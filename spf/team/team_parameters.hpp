@@ -2,31 +2,27 @@
 #pragma once
 
 #include "spf/math/parameters.hpp"
+#include "spf/planning/field/replanning_parameters.hpp"
 
 namespace spf {
 
 /// Rates, time-outs and rules of the agent itself.
 struct TeamParameters {
   double plan_period = 0.1;        ///< [s] between planning checks
-  double replan_period = 1.0;      ///< [s] a plan of the field generator is renewed at least this often
   double message_period = 0.2;     ///< [s] the committed plan is told again at least this often
   double message_lifetime = 1.5;   ///< [s] after which a peer may no longer rely on it
   double stale_time = 0.3;         ///< [s] without pose or observation until the robot brakes
   double goal_tolerance = 0.05;    ///< [m] within which the robot counts itself arrived
   double reanchor_distance = 0.3;  ///< [m] from the plan beyond which the plan starts anew at the robot
-  double emergency_time = 1.0;     ///< [s] predicted contact sooner than this (or than braking takes): brake
-  double retry_first = 0.2;        ///< [s] back-off after a failed plan
-  double retry_longest = 1.6;      ///< [s] longest back-off
   double guide_period = 0.5;       ///< [s] the guide path follows a changing map at most this often
   double guide_idle_period = 2.0;  ///< [s] and, while its way stays clear, at most this often
-  bool retreat = true;             ///< step aside when standing would be run into and no plan is found
-  bool keep_candidates = false;    ///< keep every candidate of a plan, for display (allocates)
+  int priority = 0;  ///< [1] the smaller goes first; among equals the robot with the smaller number
+  bool keep_candidates = false;       ///< keep every candidate of a plan, for display (allocates)
+  ReplanningParameters replanning{};  ///< of the paper's method; its keys stand among these
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("plan_period", self.plan_period, "s", Range{0.01, 2.0}, "time between planning checks");
-    visit("replan_period", self.replan_period, "s", Range{0.05, 10.0},
-          "a plan of the field generator is renewed at least this often");
     visit("message_period", self.message_period, "s", Range{0.01, 10.0},
           "the committed plan is broadcast again at least this often");
     visit("message_lifetime", self.message_lifetime, "s", Range{0.1, 60.0},
@@ -37,17 +33,14 @@ struct TeamParameters {
           "distance within which the robot counts itself arrived");
     visit("reanchor_distance", self.reanchor_distance, kMetresBySize, Range{0.02, 10.0},
           "distance from the plan beyond which it starts anew at the robot");
-    visit("emergency_time", self.emergency_time, "s", Range{0.0, 10.0},
-          "a predicted contact sooner than this makes the robot brake when it finds no plan");
-    visit("retry_first", self.retry_first, "s", Range{0.0, 10.0}, "first wait after a failed plan");
-    visit("retry_longest", self.retry_longest, "s", Range{0.0, 60.0},
-          "longest wait after failed plans (it doubles each time)");
     visit("guide_period", self.guide_period, "s", Range{0.0, 60.0},
           "the guide path follows a changing map at most this often");
     visit("guide_idle_period", self.guide_idle_period, "s", Range{0.0, 60.0},
           "and, while its way stays clear, at most this often");
-    visit("retreat", self.retreat, "step aside when standing would be run into and no plan is found");
+    visit("priority", self.priority, "1", Range{0, 1000000},
+          "the smaller goes first; among equals the robot with the smaller number");
     visit("keep_candidates", self.keep_candidates, "keep every candidate of a plan, for display");
+    ReplanningParameters::visit_fields(self.replanning, visit);
   }
 };
 

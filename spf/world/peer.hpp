@@ -1,12 +1,14 @@
 // Belief about one teammate, from its broadcasts.
 #pragma once
 
+#include "spf/world/priority.hpp"
 #include "spf/world/trajectory_message.hpp"
 
 namespace spf {
 
 struct Peer {
   int robot_id = 0;
+  int priority = 0;
   PeerState state = PeerState::stopped;
   double radius = 0.3;          ///< [m]
   double position_sigma = 0.0;  ///< [m]
@@ -15,6 +17,7 @@ struct Peer {
   double growth = 0.0;   ///< [m] added to the radius of an expired peer
   Trajectory trajectory;
 
+  [[nodiscard]] Rank rank() const { return {priority, robot_id}; }
   /// Position at an absolute time [m]; for an expired peer the last known place.
   [[nodiscard]] Eigen::Vector2d position(double time) const;
   /// Velocity at an absolute time [m/s].

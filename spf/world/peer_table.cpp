@@ -55,6 +55,7 @@ MessageVerdict PeerTable::receive(const TrajectoryMessage& message, double now) 
   entry.expiry_time = std::min(message.expiry_time, now + parameters_.silence);
   Peer& peer = entry.peer;
   peer.robot_id = message.robot_id;
+  peer.priority = message.priority;
   peer.state = message.state;
   peer.radius = message.radius;
   peer.position_sigma = message.position_sigma;

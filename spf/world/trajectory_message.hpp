@@ -10,7 +10,8 @@ namespace spf {
 enum class PeerState { moving, braking, stopped, arrived };
 
 struct TrajectoryMessage {
-  int robot_id = 0;            ///< also the priority: the smaller number goes first (paper)
+  int robot_id = 0;
+  int priority = 0;            ///< the smaller goes first, among equals the smaller robot_id (priority.hpp)
   std::uint32_t sequence = 0;  ///< grows with every message of this robot
   double sent_time = 0.0;      ///< [s]
   double expiry_time = 0.0;    ///< [s] after this the peer is only a disc at its last known place

@@ -16,6 +16,9 @@ struct WorldSnapshot {
   const OccupancyMap* map = nullptr;  ///< never null when planning
   const std::vector<ObstacleTrack>* tracks = nullptr;
   const std::vector<Peer>* peers = nullptr;  ///< sorted by robot_id, without the robot itself
+  int priority = 0;                          ///< of the robot itself
+
+  [[nodiscard]] Rank rank() const { return {priority, robot_id}; }
 };
 
 }  // namespace spf

@@ -108,7 +108,7 @@ spf_empc_msgs::Trajectory to_message(const ToldTrajectory& told, const ClockEdge
   message.header.frame_id = frame;
   message.robot_id = static_cast<std::uint32_t>(from.robot_id);
   message.sequence = from.sequence;
-  message.priority = message.robot_id;
+  message.priority = static_cast<std::uint32_t>(from.priority);
   message.state = static_cast<std::uint8_t>(from.state);
   message.expiry = clock.time(from.expiry_time);
   message.radius = from.radius;
@@ -132,6 +132,8 @@ Converted<ToldTrajectory> from_message(const spf_empc_msgs::Trajectory& message,
   if (frames_differ(message.header.frame_id, frame, refusal)) return Result::refused(refusal);
   if (message.robot_id > static_cast<std::uint32_t>(std::numeric_limits<int>::max()))
     return Result::refused("robot_id is too large");
+  if (message.priority > static_cast<std::uint32_t>(std::numeric_limits<int>::max()))
+    return Result::refused("priority is too large");
   if (message.state > spf_empc_msgs::Trajectory::ARRIVED)
     return Result::refused("state is none that is known");
   if (!(message.radius > 0.0 && std::isfinite(message.radius)))
@@ -145,6 +147,7 @@ Converted<ToldTrajectory> from_message(const spf_empc_msgs::Trajectory& message,
   ToldTrajectory told;
   TrajectoryMessage& to = told.message;
   to.robot_id = static_cast<int>(message.robot_id);
+  to.priority = static_cast<int>(message.priority);
   to.sequence = message.sequence;
   to.sent_time = clock.seconds(message.header.stamp);
   to.expiry_time = clock.seconds(message.expiry);

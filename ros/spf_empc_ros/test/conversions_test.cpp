@@ -32,6 +32,7 @@ spf::TrajectoryMessage some_message(spf::RandomStream& random) {
   spf::TrajectoryMessage message;
   message.robot_id = static_cast<int>(random.uniform(0.0, 1e6));
   message.sequence = static_cast<std::uint32_t>(random.uniform(0.0, 4e9));
+  message.priority = static_cast<int>(random.uniform(0.0, 1e6));
   message.sent_time = random.uniform(0.0, 100.0);
   message.expiry_time = message.sent_time + 1.5;
   message.radius = random.uniform(0.1, 1.0);
@@ -60,6 +61,7 @@ TEST(Conversions, TrajectoryThereAndBack) {
     const spf::TrajectoryMessage& got = told->message;
     EXPECT_EQ(got.robot_id, sent.robot_id);
     EXPECT_EQ(got.sequence, sent.sequence);
+    EXPECT_EQ(got.priority, sent.priority);
     EXPECT_NEAR(got.sent_time, sent.sent_time, 1e-9);
     EXPECT_NEAR(got.expiry_time, sent.expiry_time, 1e-9);
     EXPECT_NEAR(*told->observed, sent.sent_time - 0.1, 1e-9);

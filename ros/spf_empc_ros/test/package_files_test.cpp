@@ -11,8 +11,8 @@ const std::string kConfig = std::string{SPF_EMPC_ROS_DIR} + "/config/";
 
 TEST(RobotYaml, IsTheRobotOfTheScenarios) {
   spf::RobotFile expected;
-  expected.method = spf::Method::space_time;
-  expected.agent = spf::with_method(expected.agent, expected.method);
+  expected.method = "space_time";
+  expected.agent = spf::with_method(expected.agent, expected.method.method());
   EXPECT_EQ(spf::to_yaml_text(spf::read_robot_file(kConfig + "robot.yaml")), spf::to_yaml_text(expected));
   const spf::Study study = spf::read_study(kConfig + "fleet.yaml");
   spf::RobotFile of_scenario = expected;

@@ -1,0 +1,27 @@
+// Adds up the figures of the agents in a trial while it runs (docs/protocol.md, Figures).
+#pragma once
+
+#include <vector>
+
+#include "sim/trial_result.hpp"
+#include "spf/planning/planner.hpp"
+
+namespace spf::sim {
+
+/// What the agents did: the planning effort and the standing about of a RobotResult.
+class AgentMeter {
+ public:
+  explicit AgentMeter(std::size_t robots) : robots_(robots) {}
+
+  /// A planning call of a robot ended.
+  void planned(int robot, const PlanResult& plan);
+  /// For `duration` [s] the robot has had this status.
+  void stood(int robot, const AgentStatus& status, double duration);
+  /// Fills it into a result that holds the truth of the same robots.
+  void finish(TrialResult& result) const;
+
+ private:
+  std::vector<RobotResult> robots_;  // only the fields that are metered here
+};
+
+}  // namespace spf::sim

@@ -1,0 +1,18 @@
+// Vectors of the plane.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace spf {
+
+/// The vector turned by a quarter to the left.
+[[nodiscard]] inline Eigen::Vector2d left_of(const Eigen::Vector2d& v) {
+  return {-v.y(), v.x()};
+}
+
+/// Positive when b points to the left of a.
+[[nodiscard]] inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+}  // namespace spf

@@ -1,0 +1,204 @@
+#include "spf/planning/field/evasion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "spf/math/angles.hpp"
+#include "spf/math/random_stream.hpp"
+#include "spf/planning/braking.hpp"
+
+namespace spf {
+namespace {
+
+constexpr double kTime = 4.0;     // [s]
+constexpr double kHorizon = 3.0;  // [s]
+
+/// Obstacles at constant velocity: what stands can be run into.
+PlannerParameters planner_parameters() {
+  PlannerParameters parameters;
+  parameters.dynamic_model = DynamicModel::constant_velocity;
+  return parameters;
+}
+
+struct Scene {
+  OccupancyMap map{GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
+  std::vector<ObstacleTrack> tracks;
+  std::vector<Peer> peers;
+  FlatState head;
+  RobotParameters robot;
+
+  void add(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
+    ObstacleTrack track;
+    track.id = static_cast<int>(tracks.size());
+    track.time = kTime;
+    track.state = {position, velocity, 0.4};
+    tracks.push_back(track);
+  }
+  [[nodiscard]] Evasion evade(const PlannerParameters& planner = planner_parameters()) const {
+    ClearanceModel model{planner, robot, FieldParameters{}};
+    model.prepare({kTime, 1, &map, &tracks, &peers}, kTime, PeerSelection::all);
+    return best_evasion(head, {}, kTime, kTime + kHorizon, model, robot);
+  }
+  /// Least gap of the surfaces over the horizon, sampled: independent of the clearance model [m].
+  [[nodiscard]] double gap(const Trajectory& trajectory) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (double ahead = 0.0; ahead <= kHorizon; ahead += 0.005) {
+      const Eigen::Vector2d place = trajectory.position(kTime + ahead);
+      for (const ObstacleTrack& track : tracks) {
+        const Eigen::Vector2d centre = track.state.position_world + ahead * track.state.velocity_world;
+        least = std::min(least, (place - centre).norm() - robot.radius - track.state.radius);
+      }
+    }
+    return least;
+  }
+};
+
+TEST(Evasion, BrakesWhenNothingIsNear) {
+  Scene scene;
+  scene.head.velocity_world = {0.8, 0.3};
+  const Evasion evasion = scene.evade();
+  EXPECT_FALSE(evasion.sidestep);
+  EXPECT_TRUE(evasion.report.clear());
+  const Trajectory braking = braking_trajectory(scene.head, {}, kTime, scene.robot);
+  EXPECT_EQ(evasion.trajectory.tail_position(), braking.tail_position());
+}
+
+/// From rest, half a second at 1 m/s^2 and back to rest leads 0.25 m far: enough against what would graze the
+/// robot.
+TEST(Evasion, StepsAsideWhenStandingWouldBeGrazed) {
+  for (int i = 0; i < 24; ++i) {
+    SCOPED_TRACE(i);
+    const double angle = 2.0 * kPi * i / 24;
+    const Eigen::Vector2d from{std::cos(angle), std::sin(angle)};
+    Scene scene;
+    const Eigen::Vector2d beside{-from.y(), from.x()};
+    scene.add(2.0 * from + 0.53 * beside, -0.8 * from);
+    const Evasion evasion = scene.evade();
+    EXPECT_TRUE(evasion.sidestep);
+    EXPECT_TRUE(evasion.report.clear());
+    EXPECT_GT(scene.gap(evasion.trajectory), 0.0);
+    EXPECT_LT(scene.gap(braking_trajectory(scene.head, {}, kTime, scene.robot)), 0.0);  // there was a need
+  }
+}
+
+TEST(Evasion, KeepsOutOfTheWallItHasBehind) {
+  Scene scene;
+  scene.map.add_box({-9.0, -2.0}, {9.0, -0.4});  // 0.1 m from the robot's side
+  scene.add({0.5, 2.0}, {0.0, -0.7});
+  const Evasion evasion = scene.evade();
+  EXPECT_TRUE(evasion.report.clear());
+  EXPECT_GT(scene.gap(evasion.trajectory), 0.0);
+  for (double ahead = 0.0; ahead < kHorizon; ahead += 0.02)
+    EXPECT_GT(evasion.trajectory.position(kTime + ahead).y() + 0.4, scene.robot.radius);
+}
+
+TEST(Evasion, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
+  RandomStream random{15};
+  int sidesteps = 0;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    Scene scene;
+    scene.head.velocity_world =
+        random.uniform(0.0, 1.0) * random.normal2().normalized() * scene.robot.max_speed;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector2d place = random.uniform(0.9, 3.0) * random.normal2().normalized();
+      scene.add(place, -random.uniform(0.2, 0.6) * (place + 0.5 * random.normal2()).normalized());
+    }
+    const Evasion evasion = scene.evade();
+    const Trajectory& trajectory = evasion.trajectory;
+    const FlatState start = trajectory.state(kTime);
+    EXPECT_LT((start.position_world - scene.head.position_world).norm(), 1e-12);
+    EXPECT_LT((start.velocity_world - scene.head.velocity_world).norm(), 1e-12);
+    EXPECT_EQ(trajectory.start_time(), kTime);
+    EXPECT_LT(trajectory.state(trajectory.end_time() - 1e-9).velocity_world.norm(), 1e-6);
+    // Constant accelerations: exact to rounding.
+    EXPECT_LE(trajectory.max_speed(), scene.robot.max_speed * (1.0 + 1e-9));
+    EXPECT_LE(trajectory.max_acceleration(), scene.robot.max_acceleration * (1.0 + 1e-9));
+    // The reports say the truth: no contact in a clear one (they count half the margin of 0.05 m).
+    const double gap = scene.gap(trajectory);
+    if (evasion.report.clear()) {
+      EXPECT_GT(gap, 0.0);
+    }
+    const double braking_gap = scene.gap(braking_trajectory(scene.head, {}, kTime, scene.robot));
+    if (braking_gap > 0.05) {
+      EXPECT_TRUE(evasion.report.clear());
+    }
+    sidesteps += evasion.sidestep ? 1 : 0;
+  }
+  EXPECT_GT(sidesteps, 100);
+}
+
+TEST(Evasion, WithoutAWayOutTakesTheLatestConflict) {
+  // Discs close in from all sides, those on the right later.
+  Scene scene;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 2.0 * kPi * i / 8;
+    const Eigen::Vector2d from{std::cos(angle), std::sin(angle)};
+    scene.add((from.x() > 0.5 ? 2.0 : 1.4) * from, -0.7 * from);
+  }
+  const Evasion evasion = scene.evade();
+  EXPECT_FALSE(evasion.report.clear());
+  ClearanceModel model{planner_parameters(), scene.robot, FieldParameters{}};
+  model.prepare({kTime, 1, &scene.map, &scene.tracks, &scene.peers}, kTime, PeerSelection::all);
+  const Trajectory braking = braking_trajectory(scene.head, {}, kTime, scene.robot);
+  const double braking_time = model.check(braking, {kTime, kTime + kHorizon, kTime + kHorizon, 0.5}).time;
+  EXPECT_GT(evasion.report.time, braking_time);
+  EXPECT_TRUE(evasion.sidestep);
+  EXPECT_GT(evasion.trajectory.tail_position().x(), 0.0);
+}
+
+/// Ten evasions a second of a robot that stands before an obstacle, inside its field.
+double least_gap_of_evasions(const Eigen::Vector2d& obstacle_from, const Eigen::Vector2d& velocity,
+                             const std::vector<Eigen::Vector2d>& wall) {
+  Scene scene;
+  if (!wall.empty()) scene.map.add_box(wall[0], wall[1]);
+  scene.add(obstacle_from, velocity);
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < 40; ++step) {
+    const Evasion evasion = scene.evade(PlannerParameters{});
+    for (int k = 0; k < 10; ++k) {
+      const Eigen::Vector2d place = evasion.trajectory.position(kTime + 0.01 * k);
+      const Eigen::Vector2d centre = scene.tracks[0].state.position_world + 0.01 * k * velocity;
+      least = std::min(least, (place - centre).norm() - 0.7);
+    }
+    scene.head = evasion.trajectory.state(kTime + 0.1);
+    scene.tracks[0].state.position_world += 0.1 * velocity;
+  }
+  return least;
+}
+
+/// In the field nothing is clear, and the obstacle does not wait: standing there is to be run over.
+TEST(Evasion, LeavesTheFieldOfAnObstacleThatComes) {
+  for (int i = 0; i < 24; ++i) {
+    SCOPED_TRACE(i);
+    const double angle = 2.0 * kPi * i / 24;
+    const Eigen::Vector2d from{std::cos(angle), std::sin(angle)};
+    const Eigen::Vector2d beside{-from.y(), from.x()};
+    const Eigen::Vector2d start = 1.6 * from + (0.1 + 0.02 * i) * beside;
+    ASSERT_LT((start - 0.6 * from).norm(), 1.3);  // the robot lies in the field
+    EXPECT_GT(least_gap_of_evasions(start, -0.6 * from, {}), 0.0);
+  }
+}
+
+TEST(Evasion, LeavesTheFieldOnTheOtherSideOfAWall) {
+  // 0.1 m of room above the robot, which is the nearer way out of the field.
+  EXPECT_GT(least_gap_of_evasions({1.5, -0.1}, {-0.4, 0.0}, {{-9.0, 0.4}, {9.0, 2.0}}), 0.0);
+}
+
+TEST(Evasion, TellsHowLongItStaysInTheField) {
+  Scene scene;
+  scene.add({5.0, 0.0}, {-0.5, 0.0});
+  EXPECT_EQ(scene.evade(PlannerParameters{}).time_in_fields, 0.0);
+  scene.tracks[0].state.position_world = {0.3, 0.6};  // half in: out within the second that it takes
+  scene.tracks[0].state.velocity_world.setZero();
+  const Evasion evasion = scene.evade(PlannerParameters{});
+  EXPECT_TRUE(evasion.sidestep);
+  EXPECT_GT(evasion.time_in_fields, 0.1);
+  EXPECT_LT(evasion.time_in_fields, 1.0);
+  const Eigen::Vector2d out = evasion.trajectory.position(kTime + evasion.time_in_fields);
+  EXPECT_GE((out - Eigen::Vector2d{0.3, 0.6}).norm(), 0.7);
+}
+
+}  // namespace
+}  // namespace spf

@@ -1,0 +1,103 @@
+#include "spf/planning/space_time/manoeuvre.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spf/trajectory/constant_acceleration.hpp"
+
+namespace spf {
+namespace {
+
+/// Moves a velocity towards a target by at most `change`.
+Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d& target, double change) {
+  const Eigen::Vector2d difference = target - velocity;
+  const double size = difference.norm();
+  if (size <= change) return target;
+  return velocity + difference * (change / size);
+}
+
+}  // namespace
+
+Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const GuidePath& guide,
+                              const RollOutSettings& settings) {
+  const Eigen::Vector2d direction = guide.direction(position_world);
+  const double distance = guide.cost_to_go(position_world);
+  // The velocity v that is reached at the end of a step: step * v and the way to stop from v,
+  // v^2 / (2 acceleration), together are the distance. And not beyond the goal within the step.
+  const double acceleration = settings.max_acceleration;
+  const double stoppable =
+      acceleration *
+      (std::sqrt(settings.step * settings.step + 2.0 * distance / acceleration) - settings.step);
+  const double speed = std::min({settings.max_speed, stoppable, distance / (2.0 * settings.step)});
+  return direction * speed;
+}
+
+void roll_out(const Manoeuvre& manoeuvre, const FlatState& head, const GuidePath& guide,
+              const RollOutSettings& settings, RollOut& result) {
+  result.steps = settings.steps;
+  result.position_world[0] = head.position_world;
+  result.velocity_world[0] = head.velocity_world;
+  const double change = settings.max_acceleration * settings.step;
+  // Far from the goal its direction hardly turns within the horizon: look it up once, follow it closely near
+  // the end.
+  const double near = 2.0 * settings.max_speed * settings.step * settings.steps;
+  Eigen::Vector2d target = manoeuvre.velocity_world;
+  bool first = manoeuvre.until > 0.0;
+  bool follow = false;
+  for (int k = 0; k < settings.steps; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const Eigen::Vector2d position = result.position_world[at];
+    const Eigen::Vector2d velocity = result.velocity_world[at];
+    if (k * settings.step >= manoeuvre.until - 1e-9) {
+      const bool entering = first || k == 0;
+      first = false;
+      switch (manoeuvre.then) {
+        case Manoeuvre::Then::goal:
+          if (entering) follow = guide.cost_to_go(position) < near;
+          if (entering || follow || k % 5 == 0) target = goal_velocity(position, guide, settings);
+          break;
+        case Manoeuvre::Then::hold:
+          break;
+        case Manoeuvre::Then::brake:
+          target = Eigen::Vector2d::Zero();
+          break;
+      }
+    }
+    const Eigen::Vector2d next = approach(velocity, target, change);
+    result.velocity_world[at + 1] = next;
+    result.position_world[at + 1] = position + 0.5 * settings.step * (velocity + next);
+  }
+}
+
+Trajectory to_trajectory(const RollOut& roll_out, double start_time, const RollOutSettings& settings) {
+  Trajectory trajectory{start_time};
+  int k = 0;
+  while (k < roll_out.steps) {
+    const auto from = static_cast<std::size_t>(k);
+    const Eigen::Vector2d change = roll_out.velocity_world[from + 1] - roll_out.velocity_world[from];
+    int last = k + 1;  // extend over steps of the same acceleration
+    while (last < roll_out.steps) {
+      const auto next = static_cast<std::size_t>(last);
+      const Eigen::Vector2d following = roll_out.velocity_world[next + 1] - roll_out.velocity_world[next];
+      if ((following - change).norm() > 1e-12) break;
+      ++last;
+    }
+    const auto to = static_cast<std::size_t>(last);
+    trajectory.append(constant_acceleration(roll_out.position_world[from], roll_out.velocity_world[from],
+                                            roll_out.velocity_world[to], settings.step * (last - k)));
+    k = last;
+  }
+  const auto end = static_cast<std::size_t>(roll_out.steps);
+  append_braking({roll_out.position_world[end], roll_out.velocity_world[end], Eigen::Vector2d::Zero()},
+                 settings, trajectory);
+  return trajectory;
+}
+
+void append_braking(const FlatState& end, const RollOutSettings& settings, Trajectory& trajectory) {
+  const double speed = end.velocity_world.norm();
+  if (speed <= 1e-6) return;
+  trajectory.append(constant_acceleration(end.position_world, end.velocity_world, Eigen::Vector2d::Zero(),
+                                          speed / settings.max_acceleration));
+}
+
+}  // namespace spf

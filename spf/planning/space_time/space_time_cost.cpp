@@ -1,0 +1,79 @@
+#include "spf/planning/space_time/space_time_cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spf {
+namespace {
+
+constexpr double kSqrtHalf = 0.70710678118654752440;
+constexpr double kInverseSqrtTwoPi = 0.39894228040143267794;
+constexpr double kFarSigmas = 5.0;  // Phi(-5) = 3e-7
+
+double tail_chance(double z) {
+  return 0.5 * std::erfc(z * kSqrtHalf);
+}
+double density(double z) {
+  return kInverseSqrtTwoPi * std::exp(-0.5 * z * z);
+}
+
+/// A step of the table and the way from it to the next, for one instant.
+struct Instant {
+  std::size_t step = 0;
+  double part = 0.0;        // [0, 1]
+  double per_second = 0.0;  // d part / d time; 0 beyond the table
+};
+
+Instant instant_at(double ahead, const SpaceTimeRisk& risk) {
+  const double position = ahead / risk.step();
+  if (position <= 0.0) return {0, 0.0, 0.0};
+  if (position >= risk.steps()) return {static_cast<std::size_t>(risk.steps() - 1), 1.0, 0.0};
+  const double floor = std::floor(position);
+  return {static_cast<std::size_t>(floor), position - floor, 1.0 / risk.step()};
+}
+
+void add_entity(const SpaceTimeRisk::Entity& entity, const Instant& at, double rate, const NodeSample& node,
+                NodePenalty& penalty) {
+  const Eigen::Vector2d step = entity.mean_world[at.step + 1] - entity.mean_world[at.step];
+  const Eigen::Vector2d offset = node.position - entity.mean_world[at.step] - at.part * step;
+  const double sigma_step = entity.sigma[at.step + 1] - entity.sigma[at.step];
+  const double sigma = entity.sigma[at.step] + at.part * sigma_step;
+  const double distance = offset.norm();
+  const double z = (distance - entity.radius) / sigma;
+  if (z > kFarSigmas) return;
+  const double factor_step = entity.size_factor[at.step + 1] - entity.size_factor[at.step];
+  const double factor = rate * (entity.size_factor[at.step] + at.part * factor_step);
+  const double chance = tail_chance(z);
+  const double slope = -factor * density(z);  // dP / dz
+  penalty.integrand += factor * chance;
+  // At the very centre there is no way out that is better than another.
+  const Eigen::Vector2d away =
+      distance > 1e-9 ? Eigen::Vector2d{offset / distance} : Eigen::Vector2d{Eigen::Vector2d::Zero()};
+  penalty.wrt_position += (slope / sigma) * away;
+  const double z_by_time = (-away.dot(step) - z * sigma_step) * at.per_second / sigma;
+  penalty.wrt_time += slope * z_by_time + rate * factor_step * at.per_second * chance;
+}
+
+}  // namespace
+
+void SpaceTimeCost::operator()(NodeSet& nodes) const {
+  const double rate = price / exposure;
+  for (int k = 0; k < nodes.size(); ++k) {
+    const NodeSample& node = nodes[k];
+    NodePenalty& penalty = nodes.penalty(k);
+    const double ahead = node.time - start_time;
+    const Instant at = instant_at(ahead, *risk);
+    for (int e = 0; e < risk->entity_count(); ++e) add_entity(risk->entity(e), at, rate, node, penalty);
+
+    const double clearance = map->distance(node.position) - wanted_clearance;
+    const double z = clearance / static_sigma;
+    if (z > kFarSigmas) continue;
+    // Inside the margin the cost goes on growing, so that the way out is always downhill.
+    const double depth = std::max(0.0, -clearance) / wanted_clearance;
+    penalty.integrand += rate * (tail_chance(z) + depth);
+    const double slope = -density(z) / static_sigma - (clearance < 0.0 ? 1.0 / wanted_clearance : 0.0);
+    penalty.wrt_position += rate * slope * map->distance_gradient(node.position);
+  }
+}
+
+}  // namespace spf

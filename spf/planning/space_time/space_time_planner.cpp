@@ -1,0 +1,227 @@
+#include "spf/planning/space_time/space_time_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spf {
+namespace {
+
+constexpr int kProgressSamples = 3;
+constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter ways are not smoothed
+constexpr double kSqrtHalf = 0.70710678118654752440;
+
+RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
+  return {robot.max_speed, robot.max_acceleration, parameters.step, steps};
+}
+
+}  // namespace
+
+SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const PlannerParameters& planner,
+                                   const RobotParameters& robot)
+    : parameters_{validated(parameters)},
+      robot_{validated(robot)},
+      risk_{parameters_, robot_.radius, robot_.max_speed},
+      smoother_{parameters_, planner, robot_},
+      judge_{validated(planner), robot_} {
+  settings_ = settings_of(parameters_, robot_, risk_.steps());
+}
+
+SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
+                                                double enough) const {
+  const GuidePath& guide = *request.guide;
+  Score score;
+  const auto end = static_cast<std::size_t>(roll_out.steps);
+  const Eigen::Vector2d& tail = roll_out.position_world[end];
+  // Travel time: what has passed, the way left at full speed, and half the change of velocity that is still
+  // needed.
+  const Eigen::Vector2d wanted = goal_velocity(tail, guide, settings_);
+  score.time = settings_.step * roll_out.steps + guide.cost_to_go(tail) / settings_.max_speed +
+               0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
+  // Progress now is better than the same progress promised for later, which would be promised again and
+  // again: a part of the way still to go counts at some instants in between, too.
+  double between = 0.0;
+  for (int i = 1; i <= kProgressSamples; ++i) {
+    const auto at = static_cast<std::size_t>(i * roll_out.steps / (kProgressSamples + 1));
+    between += guide.cost_to_go(roll_out.position_world[at]);
+  }
+  score.time += parameters_.early_progress * between / (kProgressSamples * settings_.max_speed);
+  if (score.time > enough) return score;
+
+  // Static surfaces: the chance that the own position error reaches one. It does not fade: a wall will still
+  // be there, and a risk that fades would be put off for ever.
+  const OccupancyMap& map = *request.world.map;
+  const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
+  const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 1; k <= roll_out.steps; ++k) {
+    least = std::min(least, map.distance(roll_out.position_world[static_cast<std::size_t>(k)]));
+  }
+  // The way must not end where it could not stop, or a blocked robot would take run after run at what blocks
+  // it.
+  const Eigen::Vector2d& velocity = roll_out.velocity_world[end];
+  const Eigen::Vector2d stop = tail + velocity * (velocity.norm() / (2.0 * settings_.max_acceleration));
+  least = std::min({least, map.distance(0.5 * (tail + stop)), map.distance(stop)});
+  const double clearance = least - wanted_clearance;
+  // Deeper is worse without end, so that a robot inside the margin is led out of it.
+  const double depth = std::max(0.0, -clearance) / wanted_clearance;
+  const double static_chance =
+      clearance > 4.0 * softness ? 0.0 : 0.5 * std::erfc(clearance / softness * kSqrtHalf) + depth;
+  const double left = (enough - score.time) / std::max(parameters_.risk_price, 1e-9) - static_chance;
+  score.chance = static_chance;
+  score.risk = static_chance * parameters_.risk_price;
+  if (left < 0.0) return score;
+  const double moving_chance = risk_.along(roll_out.position_world, roll_out.steps, stop, left, &score.worst);
+  score.chance += moving_chance;
+  score.risk += moving_chance * parameters_.risk_price;
+  return score;
+}
+
+void SpaceTimePlanner::take_best(const Score& score, int candidate, bool is_previous) {
+  best_ = trial_;
+  best_score_ = score;
+  best_candidate_ = candidate;
+  best_is_previous_ = is_previous;
+}
+
+void SpaceTimePlanner::consider(const Manoeuvre& manoeuvre, const PlanRequest& request, PlanResult& result,
+                                double bonus) {
+  roll_out(manoeuvre, request.head, *request.guide, settings_, trial_);
+  ++result.stats.manoeuvres;
+  const double enough =
+      request.keep_candidates ? std::numeric_limits<double>::infinity() : best_score_.total();
+  Score trial_score = score(trial_, request, enough + bonus);
+  trial_score.time -= bonus;
+  const int candidate = keep_candidate(trial_, Candidate::Kind::manoeuvre, trial_score, request, result);
+  if (trial_score.total() < best_score_.total()) take_best(trial_score, candidate, false);
+}
+
+/// A trajectory as a roll-out over the whole horizon: it is driven until `drive_end`, then its velocity is
+/// held instead of braking, so that plans of different age are compared over the same time.
+void SpaceTimePlanner::sample(const Trajectory& trajectory, double from, double drive_end) {
+  trial_.steps = settings_.steps;
+  const FlatState last = trajectory.state(drive_end);
+  for (int k = 0; k <= trial_.steps; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const double time = from + k * settings_.step;
+    const FlatState state = time < drive_end ? trajectory.state(time) : last;
+    trial_.position_world[at] = state.position_world + std::max(0.0, time - drive_end) * state.velocity_world;
+    trial_.velocity_world[at] = state.velocity_world;
+  }
+}
+
+void SpaceTimePlanner::consider_previous(const PlanRequest& request, PlanResult& result) {
+  const Trajectory* committed = request.committed;
+  if (committed == nullptr || committed->empty() || committed->start_time() != plan_start_) return;
+  if (request.time > plan_start_ + parameters_.renewal) return;
+  if (drive_end_ - request.time < 0.3 * settings_.step * settings_.steps) return;
+  sample(*committed, request.time, drive_end_);
+  Score previous = score(trial_, request, std::numeric_limits<double>::infinity());
+  previous.time -= parameters_.keep_bonus;
+  take_best(previous, keep_candidate(trial_, Candidate::Kind::previous, previous, request, result), true);
+}
+
+void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult& result) {
+  const Eigen::Vector2d ahead = request.guide->direction(request.head.position_world);
+  const double base = ahead.squaredNorm() > 0.0 ? std::atan2(ahead.y(), ahead.x()) : 0.0;
+  const std::array<double, 2> speeds{settings_.max_speed, parameters_.slow_fraction * settings_.max_speed};
+  for (int i = 0; i < parameters_.headings; ++i) {
+    const double angle = base + 2.0 * kPi * i / parameters_.headings;
+    const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
+    for (const double speed : speeds) {
+      const Eigen::Vector2d velocity = direction * speed;
+      const double always = settings_.step * settings_.steps;
+      consider({velocity, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, result);
+      consider({velocity, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, result);
+      consider({velocity, always, Manoeuvre::Then::hold}, request, result);
+      consider({velocity, parameters_.short_sidestep, Manoeuvre::Then::brake}, request, result);
+    }
+  }
+}
+
+/// What shapes the plan is named, then every other way is weighed.
+void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& direct, PlanResult& result) {
+  if (direct.worst >= 0) {
+    const SpaceTimeRisk::Entity& entity = risk_.entity(direct.worst);
+    (entity.is_peer ? result.blocking_peer : result.blocking_track) = entity.id;
+  }
+  const Eigen::Vector2d still = Eigen::Vector2d::Zero();
+  const bool slow = request.head.velocity_world.norm() < 0.3 * robot_.max_speed;
+  consider({still, 0.0, Manoeuvre::Then::brake}, request, result, slow ? parameters_.stand_bonus : 0.0);
+  consider({still, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, result);
+  consider({still, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, result);
+  consider_sidesteps(request, result);
+}
+
+void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
+  result.clear();
+  if (!usable(request) || !request.guide->ready()) {
+    const bool no_goal = usable(request);  // the guide found no free place near it
+    stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
+    return;
+  }
+  best_score_ = {};
+  best_score_.time = std::numeric_limits<double>::infinity();
+  best_is_previous_ = false;
+  best_candidate_ = -1;
+
+  // 1. Where everything that moves is believed to be over the horizon.
+  risk_.prepare(request);
+  // 2. The plan under way and the direct way; enough when the direct way is free.
+  consider_previous(request, result);
+  const Manoeuvre direct{Eigen::Vector2d::Zero(), 0.0, Manoeuvre::Then::goal};
+  roll_out(direct, request.head, *request.guide, settings_, trial_);
+  const Score direct_score = score(trial_, request, std::numeric_limits<double>::infinity());
+  consider(direct, request, result);
+  // 3. Else all ways there are.
+  if (direct_score.risk > parameters_.accepted_risk) consider_all(request, direct_score, result);
+  // 4. The best of them, made smooth, is the plan.
+  finish(request, result);
+}
+
+int SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,
+                                     const PlanRequest& request, PlanResult& result) const {
+  if (!request.keep_candidates) return -1;
+  result.candidates.push_back({kind, score.total(), std::min(score.chance, 1.0), false,
+                               to_trajectory(roll_out, request.time, settings_)});
+  return static_cast<int>(result.candidates.size()) - 1;
+}
+
+bool SpaceTimePlanner::smooth_best(const PlanRequest& request, PlanResult& result) {
+  if (!parameters_.smoothing) return false;
+  // Standing is smooth as it is; optimised, it would lean away from the risk and back again.
+  const Eigen::Vector2d& tail = best_.position_world[static_cast<std::size_t>(best_.steps)];
+  if ((tail - best_.position_world[0]).norm() < kLeastSmoothed * robot_.max_speed) return false;
+  if (!smoother_.smooth(best_, request, risk_, settings_, smooth_, result.stats)) return false;
+  const double braking = best_.velocity_world[static_cast<std::size_t>(best_.steps)].norm();
+  const double drive_end = smooth_.end_time() - (braking > 1e-6 ? braking / settings_.max_acceleration : 0.0);
+  if (drive_end - request.time < 0.5 * settings_.step * settings_.steps) return false;
+  sample(smooth_, request.time, drive_end);
+  const double enough = best_score_.total() + parameters_.smoothing_tolerance;
+  const Score smooth_score =
+      score(trial_, request, request.keep_candidates ? std::numeric_limits<double>::infinity() : enough);
+  const int candidate = keep_candidate(trial_, Candidate::Kind::optimised, smooth_score, request, result);
+  if (smooth_score.total() > enough) return false;
+  best_score_ = smooth_score;
+  best_candidate_ = candidate;
+  drive_end_ = drive_end;
+  return true;
+}
+
+void SpaceTimePlanner::finish(const PlanRequest& request, PlanResult& result) {
+  if (best_is_previous_) {
+    result.action = PlanAction::keep;
+    result.trajectory = *request.committed;
+  } else {
+    result.action = PlanAction::follow;
+    plan_start_ = request.time;
+    drive_end_ = request.time + settings_.step * best_.steps;
+    const bool smooth = smooth_best(request, result);
+    result.trajectory = smooth ? smooth_ : to_trajectory(best_, request.time, settings_);
+  }
+  result.risk = std::min(best_score_.chance, 1.0);
+  judge_.judge(request, drive_end_, result);
+  if (best_candidate_ >= 0) result.candidates[static_cast<std::size_t>(best_candidate_)].chosen = true;
+}
+
+}  // namespace spf

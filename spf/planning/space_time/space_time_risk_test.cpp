@@ -1,0 +1,167 @@
+#include "spf/planning/space_time/space_time_risk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+#include "spf/math/random_stream.hpp"
+
+namespace spf {
+namespace {
+
+/// A request in an empty place with the given obstacles and peers around a robot at the origin.
+struct Scene {
+  Scene()
+      : map{GridFrame::covering(Eigen::Vector2d::Constant(-10.0), Eigen::Vector2d::Constant(10.0), 0.2),
+            2.0} {}
+  OccupancyMap map;
+  std::vector<ObstacleTrack> tracks;
+  std::vector<Peer> peers;
+
+  [[nodiscard]] PlanRequest request() const {
+    PlanRequest request;
+    request.world = {0.0, 1, &map, &tracks, &peers};
+    return request;
+  }
+};
+
+ObstacleTrack track_at(int id, const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
+  ObstacleTrack track;
+  track.id = id;
+  track.state.position_world = position;
+  track.state.velocity_world = velocity;
+  track.state.radius = 0.4;
+  track.velocity_diffusion = 0.1;
+  return track;
+}
+
+std::array<Eigen::Vector2d, SpaceTimeRisk::kMaxSteps + 1> standing_at(const Eigen::Vector2d& position) {
+  std::array<Eigen::Vector2d, SpaceTimeRisk::kMaxSteps + 1> positions;
+  positions.fill(position);
+  return positions;
+}
+
+double standing_risk(const SpaceTimeRisk& risk, const Eigen::Vector2d& position) {
+  return risk.along(standing_at(position), risk.steps(), position, 1e9);
+}
+
+// The formula is an approximation of the chance that a two-dimensional Gaussian lies in a disc: compare it
+// with that chance by Monte Carlo. The approximation error, at most 0.12 over this range, is a known property
+// of the formula.
+TEST(OverlapProbability, IsCloseToTheChanceOfADiscUnderAGaussian) {
+  RandomStream random{5};
+  for (int i = 0; i < 60; ++i) {
+    const double radius = random.uniform(0.5, 1.0);
+    const double sigma = random.uniform(0.03, 0.6);
+    const double distance = random.uniform(0.0, 2.0);
+    int inside = 0;
+    const int n = 4000;
+    for (int k = 0; k < n; ++k) {
+      inside += (sigma * random.normal2() + Eigen::Vector2d{distance, 0.0}).norm() < radius ? 1 : 0;
+    }
+    const double chance = static_cast<double>(inside) / n;
+    EXPECT_NEAR(overlap_probability(distance, radius, sigma), chance, 0.12)
+        << "R " << radius << " sigma " << sigma << " d " << distance;
+  }
+}
+
+TEST(OverlapProbability, FallsWithDistance) {
+  double last = 1.0;
+  for (double distance = 0.0; distance < 3.0; distance += 0.1) {
+    const double now = overlap_probability(distance, 0.8, 0.3);
+    EXPECT_LT(now, last);
+    last = now;
+  }
+}
+
+TEST(SpaceTimeRisk, LeavesOutWhatCannotComeNear) {
+  Scene scene;
+  scene.tracks.push_back(track_at(3, {2.0, 0.0}, {0.0, 0.0}));
+  scene.tracks.push_back(track_at(4, {9.5, 9.5}, {0.5, 0.5}));
+  scene.tracks[1].velocity_diffusion = 0.0;
+  SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
+  risk.prepare(scene.request());
+  ASSERT_EQ(risk.entity_count(), 1);
+  EXPECT_EQ(risk.entity(0).id, 3);
+}
+
+TEST(SpaceTimeRisk, KeepsTheNearestWhenThereAreTooMany) {
+  Scene scene;
+  for (int i = 0; i < 200; ++i)
+    scene.tracks.push_back(track_at(i, {0.01 * (200 - i) + 1.0, 0.0}, {0.0, 0.0}));
+  SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
+  risk.prepare(scene.request());
+  ASSERT_EQ(risk.entity_count(), SpaceTimeRisk::kMaxEntities);
+  for (int i = 0; i < risk.entity_count(); ++i)
+    EXPECT_GE(risk.entity(i).id, 200 - SpaceTimeRisk::kMaxEntities);
+}
+
+// An obstacle that crosses x = 2 at t = 1: standing there then is dangerous, standing where it has been is
+// not.
+TEST(SpaceTimeRisk, KnowsWhenAnObstacleIsWhere) {
+  Scene scene;
+  scene.tracks.push_back(track_at(0, {2.0, -1.0}, {0.0, 1.0}));
+  scene.tracks[0].velocity_diffusion = 0.0;
+  SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
+  risk.prepare(scene.request());
+  ASSERT_EQ(risk.entity_count(), 1);
+  const double fading = std::exp(-1.0 / 0.7);
+  EXPECT_NEAR(risk.chance(risk.entity(0), 10, {2.0, 0.0}), fading, 1e-9);  // 27 sigma inside
+  EXPECT_EQ(risk.chance(risk.entity(0), 30, {2.0, -1.0}), 0.0);            // it is 3 m away by then
+  EXPECT_GT(standing_risk(risk, {2.0, 0.0}), 0.9 * fading);
+}
+
+TEST(SpaceTimeRisk, IsUnchangedWhenTheSceneTurns) {
+  RandomStream random{11};
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Vector2d position = 2.0 * random.normal2();
+    const Eigen::Vector2d velocity = random.normal2();
+    const Eigen::Vector2d query = 2.0 * random.normal2();
+    const Eigen::Rotation2Dd turn{random.uniform(-3.0, 3.0)};
+    Scene scene;
+    Scene turned;
+    SpaceTimeParameters parameters;
+    parameters.predict_bounces = false;
+    scene.tracks.push_back(track_at(0, position, velocity));
+    turned.tracks.push_back(track_at(0, turn * position, turn * velocity));
+    SpaceTimeRisk risk{parameters, 0.3, 1.0};
+    risk.prepare(scene.request());
+    const double before = standing_risk(risk, query);
+    risk.prepare(turned.request());
+    EXPECT_NEAR(standing_risk(risk, turn * query), before, 1e-9);
+  }
+}
+
+TEST(SpaceTimeRisk, CountsAPeerThatYieldsByItsWeightOnly) {
+  Scene scene;
+  Peer peer;
+  peer.robot_id = 5;  // behind robot 1 in rank
+  peer.state = PeerState::moving;
+  peer.trajectory = Trajectory::standing({1.0, 0.0}, 0.0, 10.0);
+  scene.peers.push_back(peer);
+  SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
+  risk.prepare(scene.request());
+  const double yielding = standing_risk(risk, {1.0, 0.0});
+  scene.peers[0].state = PeerState::stopped;
+  risk.prepare(scene.request());
+  const double standing = standing_risk(risk, {1.0, 0.0});
+  // Not equal: the spread of a moving peer grows a little faster.
+  EXPECT_NEAR(yielding / standing, SpaceTimeParameters{}.lower_priority_weight, 0.1);
+}
+
+TEST(SpaceTimeRisk, GrowsWithOwnUncertaintyOutsideTheRadius) {
+  Scene scene;
+  scene.tracks.push_back(track_at(0, {2.0, 0.0}, {0.0, 0.0}));
+  SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
+  PlanRequest request = scene.request();
+  risk.prepare(request);
+  const double sure = standing_risk(risk, {0.9, 0.0});
+  request.position_sigma = 0.2;
+  risk.prepare(request);
+  EXPECT_GT(standing_risk(risk, {0.9, 0.0}), sure);
+}
+
+}  // namespace
+}  // namespace spf

@@ -1,0 +1,35 @@
+// Makes a chosen way smooth: the roll-out of a manoeuvre becomes a minimum-jerk trajectory (MINCO under
+// L-BFGS) that pays for jerk, time, limits and the space-time field. The way itself (side, speed, waiting)
+// stays as chosen. Frame: world.
+#pragma once
+
+#include "spf/planning/planner.hpp"
+#include "spf/planning/space_time/manoeuvre.hpp"
+#include "spf/planning/space_time/space_time_cost.hpp"
+#include "spf/planning/trajectory_optimizer.hpp"
+
+namespace spf {
+
+class WaySmoother {
+ public:
+  /// All memory is allocated here. Throws std::invalid_argument when parameters are out of range.
+  WaySmoother(const SpaceTimeParameters& space_time, const PlannerParameters& planner,
+              const RobotParameters& robot);
+
+  /// Optimises from the roll-out, with the request's head (its acceleration goes on, too) and the roll-out's
+  /// end as ends. False when the optimiser failed or the result breaks the limits by more than their
+  /// tolerance; `smooth` is then unusable. It ends braking to rest, as to_trajectory().
+  bool smooth(const RollOut& roll_out, const PlanRequest& request, const SpaceTimeRisk& risk,
+              const RollOutSettings& settings, Trajectory& smooth, PlanStats& stats);
+
+ private:
+  SpaceTimeParameters space_time_;
+  PlannerParameters planner_;
+  RobotParameters robot_;
+  TrajectoryOptimizer optimizer_;
+  TrajectorySeed seed_;
+  TrajectoryProblem problem_;
+  SpaceTimeCost cost_;
+};
+
+}  // namespace spf

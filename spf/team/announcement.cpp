@@ -1,0 +1,72 @@
+#include "spf/team/announcement.hpp"
+
+#include "spf/team/schedule.hpp"
+
+namespace spf {
+namespace {
+
+constexpr double kStandingSpeed = 0.05;  // [1] of max_speed: slower is standing
+constexpr double kStandingTime = 0.5;    // [s]
+constexpr double kArrivedSpeed = 0.1;    // [1] of max_speed
+
+}  // namespace
+
+Announcement::Announcement(int robot_id, const AgentParameters& parameters, double time)
+    : robot_id_{robot_id},
+      robot_{parameters.robot},
+      priority_{parameters.team.priority},
+      goal_tolerance_{parameters.team.goal_tolerance},
+      message_period_{parameters.team.message_period},
+      message_lifetime_{parameters.team.message_lifetime},
+      last_motion_time_{time},
+      next_message_time_{time} {}
+
+void Announcement::update(double time, const Situation& situation) {
+  const FlatState now = situation.committed.state(time);
+  const double speed = now.velocity_world.norm();
+  const double soon = situation.committed.state(time + 0.5).velocity_world.norm();
+  const double standing_speed = kStandingSpeed * robot_.max_speed;
+  // A robot that means to go soon, and still means to half a second later, stands.
+  if (speed >= standing_speed) last_motion_time_ = time;
+  const bool stands =
+      speed < standing_speed && (soon < standing_speed || time - last_motion_time_ > kStandingTime);
+  status_ = {};
+  if (situation.goal_world && (now.position_world - *situation.goal_world).norm() < goal_tolerance_ &&
+      speed < kArrivedSpeed * robot_.max_speed) {
+    status_.state = PeerState::arrived;
+    status_.reason = stands ? StandReason::arrived : StandReason::none;
+    return;
+  }
+  status_.reason = situation.stop;
+  if (!stands) {
+    status_.state = situation.braking ? PeerState::braking : PeerState::moving;
+    return;
+  }
+  status_.state = PeerState::stopped;
+  if (situation.stop != StandReason::none) return;
+  status_.reason = situation.cause.reason;
+  status_.culprit = situation.cause.culprit;
+}
+
+std::optional<TrajectoryMessage> Announcement::message(double time, double next_time,
+                                                       const Trajectory& committed, double position_sigma) {
+  const bool changed = committed.start_time() != last_start_time_ || status_.state != last_state_;
+  const bool due = next_time > next_message_time_ + kTimeTolerance;  // the next chance would be too late
+  if (!changed && !due) return std::nullopt;
+  next_message_time_ = time + message_period_;
+  last_start_time_ = committed.start_time();
+  last_state_ = status_.state;
+  TrajectoryMessage message;
+  message.robot_id = robot_id_;
+  message.priority = priority_;
+  message.sequence = ++sequence_;
+  message.sent_time = time;
+  message.expiry_time = time + message_lifetime_;
+  message.radius = robot_.radius;
+  message.position_sigma = position_sigma;
+  message.state = status_.state;
+  message.trajectory = committed;
+  return message;
+}
+
+}  // namespace spf

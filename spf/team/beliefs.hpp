@@ -1,0 +1,65 @@
+// What the robot believes about its surroundings: the map, tracked obstacles and peers, from what it senses
+// and hears. Frame: world.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "spf/math/pose2.hpp"
+#include "spf/team/agent_parameters.hpp"
+#include "spf/world/observation.hpp"
+#include "spf/world/obstacle_tracker.hpp"
+#include "spf/world/occupancy_map.hpp"
+#include "spf/world/peer_table.hpp"
+#include "spf/world/world_snapshot.hpp"
+
+namespace spf {
+
+class Beliefs {
+ public:
+  /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed).
+  Beliefs(int robot_id, const AgentParameters& parameters, const OccupancyMap& map, double time);
+
+  void hear(const TrajectoryMessage& message, double now) { peer_table_.receive(message, now); }
+  /// Whether an observation tells about the present: neither too old to rely on nor ahead of time.
+  [[nodiscard]] bool timely(const Observation& observation, double now) const;
+  /// Takes in a timely observation. Its scan enters the map where the robot's pose then is known.
+  void observe(const Observation& observation, const std::optional<Pose2>& pose_world);
+  /// Obstacles and peers as believed at a time [s], for the snapshots from now on.
+  void refresh(double time);
+
+  /// Peers (sorted) whose discs mask no scan returns. Replaces the ones named before.
+  void set_distrusted(std::vector<int> robot_ids) { distrusted_ = std::move(robot_ids); }
+
+  /// Holds until the next call that changes anything.
+  [[nodiscard]] WorldSnapshot snapshot(double time) const {
+    return {time, robot_id_, &map_, &tracks_, &peers_, priority_};
+  }
+  [[nodiscard]] const OccupancyMap& map() const { return map_; }
+  [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
+  [[nodiscard]] const std::vector<Peer>& peers() const { return peers_; }
+  [[nodiscard]] double last_observation_time() const { return last_observation_time_; }  ///< [s]
+  [[nodiscard]] std::uint64_t message_count(MessageVerdict verdict) const {
+    return peer_table_.count(verdict);
+  }
+
+ private:
+  void mask_dynamic_returns(double time);
+
+  int robot_id_;
+  int priority_;
+  double robot_radius_;  // [m]
+  double stale_time_;    // [s]
+  OccupancyMap map_;
+  ObstacleTracker obstacle_tracker_;
+  PeerTable peer_table_;
+  std::vector<ObstacleTrack> tracks_;
+  std::vector<Peer> peers_;
+  std::vector<int> distrusted_;
+  std::vector<IgnoredDisc> masked_;  // of the observation under way, kept for its memory
+  double last_observation_time_;     // [s]
+};
+
+}  // namespace spf

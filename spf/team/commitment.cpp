@@ -1,0 +1,78 @@
+#include "spf/team/commitment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spf/planning/braking.hpp"
+#include "spf/planning/clearance.hpp"
+
+namespace spf {
+
+Commitment::Commitment(const AgentParameters& parameters, const Pose2& start, double time)
+    : heading_mode_{parameters.heading_mode},
+      robot_{parameters.robot},
+      kinematics_{parameters.robot},
+      reanchor_distance_{parameters.team.reanchor_distance},
+      held_heading_{start.heading},
+      trajectory_{Trajectory::standing(start.position_world, time, 1.0, HeadingProfile{start.heading})} {}
+
+void Commitment::begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request) {
+  request.head = trajectory_.state(request.time);
+  request.heading = trajectory_.heading().state(request.time);
+  request.committed = &trajectory_;
+  request.braking = braking_;
+  if (!estimate || !estimate->valid) return;
+  const Pose2& pose = estimate->pose_world;
+  const Eigen::Vector2d error = pose.position_world - request.head.position_world;
+  const double limit = std::max(reanchor_distance_, 4.0 * std::sqrt(estimate->position_variance));
+  if (error.norm() > limit) {
+    request.head = {pose.position_world, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+    request.heading = {pose.heading, 0.0};
+    request.committed = nullptr;
+    tracking_variance_ = 0.0;
+    return;
+  }
+  constexpr double kSmoothing = 0.1;  // of about one second at ten plans a second
+  tracking_variance_ += kSmoothing * (0.5 * error.squaredNorm() - tracking_variance_);
+}
+
+void Commitment::follow(const PlanRequest& request, const PlanResult& result) {
+  if (result.action == PlanAction::keep) {
+    if (request.committed == nullptr) brake(request.time);  // there is none to keep
+    return;
+  }
+  braking_ = result.action == PlanAction::brake;
+  trajectory_ = result.trajectory;
+  trajectory_.set_heading(heading_for(request));
+}
+
+bool Commitment::brake(double time) {
+  if (braking_) return false;  // the braking trajectory under way ends standing
+  const FlatState head = trajectory_.state(time);
+  trajectory_ = braking_trajectory(head, trajectory_.heading().state(time), time, robot_);
+  braking_ = true;
+  return true;
+}
+
+HeadingProfile Commitment::heading_for(const PlanRequest& request) const {
+  double target = held_heading_;
+  switch (heading_mode_) {
+    case HeadingMode::keep:
+      break;
+    case HeadingMode::goal:
+      target = request.goal_heading.value_or(held_heading_);
+      break;
+    case HeadingMode::motion: {
+      const Eigen::Vector2d ahead = trajectory_.state(request.time + 0.5).velocity_world;
+      const bool clearly = ahead.norm() > 0.1 * robot_.max_speed;
+      target = clearly ? std::atan2(ahead.y(), ahead.x()) : request.heading.heading;
+      break;
+    }
+  }
+  const bool held =
+      std::abs(angle_difference(target, request.heading.heading)) < 1e-9 && request.heading.yaw_rate == 0.0;
+  if (held) return HeadingProfile{target};
+  return fitted_heading(trajectory_, request.heading, target, robot_, kinematics_);
+}
+
+}  // namespace spf

@@ -1,0 +1,47 @@
+// The trajectory that the robot is committed to: where the next plan begins, what replaces it, how it ends in
+// a stop, and where the body's x axis points on it. Frame: world.
+#pragma once
+
+#include <optional>
+
+#include "spf/planning/planner.hpp"
+#include "spf/robot/omni_kinematics.hpp"
+#include "spf/team/agent_parameters.hpp"
+#include "spf/tracking/observer.hpp"
+
+namespace spf {
+
+class Commitment {
+ public:
+  /// Stands at `start` from `time` on.
+  Commitment(const AgentParameters& parameters, const Pose2& start, double time);
+
+  /// Fills in where a plan made at request.time begins. It goes on from the trajectory, which keeps the
+  /// motion smooth; a robot that has been carried too far from it (`estimate`, when given) starts anew where
+  /// it is.
+  void begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request);
+  /// Does what the result's action says, with the heading that the heading mode wants.
+  void follow(const PlanRequest& request, const PlanResult& result);
+  /// Brakes from the trajectory, unless it is a braking one already. True when a new one began.
+  bool brake(double time);
+
+  [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
+  /// The trajectory leads to rest (or aside), since there was no plan.
+  [[nodiscard]] bool braking() const { return braking_; }
+  /// Smoothed square of the distance between robot and trajectory [m^2], per axis.
+  [[nodiscard]] double tracking_variance() const { return tracking_variance_; }
+
+ private:
+  [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request) const;
+
+  HeadingMode heading_mode_;
+  RobotParameters robot_;
+  OmniKinematics kinematics_;
+  double reanchor_distance_;  // [m]
+  double held_heading_;       // [rad]
+  Trajectory trajectory_;
+  bool braking_ = false;
+  double tracking_variance_ = 0.0;  // [m^2]
+};
+
+}  // namespace spf

@@ -1,0 +1,139 @@
+#include "spf/team/commitment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "spf/team/ideal_host_test.hpp"
+
+namespace spf {
+namespace {
+
+PlanRequest request_at(double time) {
+  PlanRequest request;
+  request.time = time;
+  return request;
+}
+
+StateEstimate estimate_at(const Eigen::Vector2d& position) {
+  StateEstimate estimate;
+  estimate.pose_world = {position, 0.4};
+  estimate.valid = true;
+  return estimate;
+}
+
+PlanResult follow(const Trajectory& trajectory) {
+  PlanResult result;
+  result.action = PlanAction::follow;
+  result.trajectory = trajectory;
+  return result;
+}
+
+class CommitmentTest : public ::testing::Test {
+ protected:
+  /// Committed to a way along x at 0.8 m/s from time 1 s on.
+  void set_out() {
+    PlanRequest request = request_at(1.0);
+    commitment.begin_plan(std::nullopt, request);
+    commitment.follow(request, follow(straight({0.0, 0.0}, {0.8, 0.0}, 1.0, 5.0)));
+  }
+  Commitment commitment{AgentParameters{}, {{0.0, 0.0}, 0.0}, 0.0};
+};
+
+TEST_F(CommitmentTest, StandsUntilAPlanIsFollowed) {
+  EXPECT_EQ(commitment.trajectory().position(9.0), (Eigen::Vector2d{0.0, 0.0}));
+  set_out();
+  EXPECT_FALSE(commitment.braking());
+  EXPECT_NEAR(commitment.trajectory().position(2.0).x(), 0.8, 1e-12);
+}
+
+TEST_F(CommitmentTest, ThePlanGoesOnFromThePlan) {
+  set_out();
+  PlanRequest request = request_at(2.0);
+  commitment.begin_plan(estimate_at({0.9, 0.0}), request);  // 0.1 m ahead of it
+  EXPECT_EQ(request.committed, &commitment.trajectory());
+  EXPECT_NEAR(request.head.position_world.x(), 0.8, 1e-12);
+  EXPECT_NEAR(request.head.velocity_world.x(), 0.8, 1e-12);
+  EXPECT_GT(commitment.tracking_variance(), 0.0);
+  EXPECT_LT(commitment.tracking_variance(), 0.01);
+}
+
+TEST_F(CommitmentTest, ARobotThatWasCarriedAwayStartsAnewWhereItIs) {
+  set_out();
+  const double limit = TeamParameters{}.reanchor_distance;
+  PlanRequest request = request_at(2.0);
+  commitment.begin_plan(estimate_at({0.8, limit + 0.01}), request);
+  EXPECT_EQ(request.committed, nullptr);
+  EXPECT_EQ(request.head.position_world, (Eigen::Vector2d{0.8, limit + 0.01}));
+  EXPECT_EQ(request.head.velocity_world, (Eigen::Vector2d{0.0, 0.0}));
+  EXPECT_EQ(request.heading.heading, 0.4);
+  EXPECT_EQ(commitment.tracking_variance(), 0.0);
+}
+
+TEST_F(CommitmentTest, ThereIsNoStartingAnewForAnEstimateThatMayBeThatFarOff) {
+  set_out();
+  StateEstimate vague = estimate_at({0.8, 1.0});
+  vague.position_variance = 0.3 * 0.3;
+  PlanRequest request = request_at(2.0);
+  commitment.begin_plan(vague, request);
+  EXPECT_NE(request.committed, nullptr);
+}
+
+TEST_F(CommitmentTest, KeepsThePlanUnderWayWhenToldTo) {
+  set_out();
+  PlanRequest request = request_at(2.0);
+  commitment.begin_plan(std::nullopt, request);
+  PlanResult result = follow(straight({5.0, 5.0}, {0.0, 0.0}, 2.0, 1.0));
+  result.action = PlanAction::keep;
+  commitment.follow(request, result);
+  EXPECT_EQ(commitment.trajectory().start_time(), 1.0);
+  EXPECT_FALSE(commitment.braking());
+}
+
+TEST_F(CommitmentTest, BrakesWhereThereIsNoPlanToKeep) {
+  set_out();
+  PlanRequest request = request_at(2.0);
+  commitment.begin_plan(estimate_at({3.0, 3.0}), request);
+  PlanResult result;
+  result.action = PlanAction::keep;
+  commitment.follow(request, result);
+  EXPECT_TRUE(commitment.braking());
+  EXPECT_EQ(commitment.trajectory().start_time(), 2.0);
+}
+
+TEST_F(CommitmentTest, BrakesOnceAndEndsStanding) {
+  set_out();
+  EXPECT_TRUE(commitment.brake(2.0));
+  EXPECT_TRUE(commitment.braking());
+  EXPECT_FALSE(commitment.brake(2.1));
+  EXPECT_EQ(commitment.trajectory().start_time(), 2.0);
+  EXPECT_LT(commitment.trajectory().state(5.0).velocity_world.norm(), 1e-9);
+  EXPECT_LE(commitment.trajectory().max_acceleration(), RobotParameters{}.max_acceleration + 1e-9);
+}
+
+TEST(CommitmentHeading, FollowsItsMode) {
+  for (const HeadingMode mode : {HeadingMode::keep, HeadingMode::goal, HeadingMode::motion}) {
+    SCOPED_TRACE(enum_name(mode));
+    AgentParameters parameters;
+    parameters.heading_mode = mode;
+    Commitment commitment{parameters, {{0.0, 0.0}, 0.3}, 0.0};
+    PlanRequest request = request_at(1.0);
+    request.goal_heading = -1.0;
+    commitment.begin_plan(std::nullopt, request);
+    commitment.follow(request, follow(straight({0.0, 0.0}, {0.3, 0.3}, 1.0, 20.0)));
+    const double wanted = mode == HeadingMode::keep ? 0.3 : (mode == HeadingMode::goal ? -1.0 : 0.25 * kPi);
+    EXPECT_NEAR(commitment.trajectory().heading().state(20.0).heading, wanted, 1e-9);
+    EXPECT_NEAR(commitment.trajectory().heading().state(1.0).heading, 0.3, 1e-9);  // without a jump
+  }
+}
+
+TEST(CommitmentHeading, KeepsStillWhileItsMotionSaysNothing) {
+  AgentParameters parameters;
+  parameters.heading_mode = HeadingMode::motion;
+  Commitment commitment{parameters, {{0.0, 0.0}, 0.3}, 0.0};
+  PlanRequest request = request_at(1.0);
+  commitment.begin_plan(std::nullopt, request);
+  commitment.follow(request, follow(straight({0.0, 0.0}, {0.0, -0.05}, 1.0, 20.0)));
+  EXPECT_NEAR(commitment.trajectory().heading().state(20.0).heading, 0.3, 1e-9);
+}
+
+}  // namespace
+}  // namespace spf

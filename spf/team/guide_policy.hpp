@@ -1,0 +1,46 @@
+// When the guide, the cost-to-go towards the goal, is computed anew, and where it leads when the goal is cut
+// off. Frame: world.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+#include "spf/planning/guide_path.hpp"
+#include "spf/team/agent_parameters.hpp"
+
+namespace spf {
+
+class GuidePolicy {
+ public:
+  /// `approaches_cut_off_goal`: see Planner.
+  GuidePolicy(const AgentParameters& parameters, bool approaches_cut_off_goal, double time);
+
+  /// Brings the guide up to date where that is due, for a robot at `here`.
+  void refresh(double time, const OccupancyMap& map, const Eigen::Vector2d& goal_world,
+               const Eigen::Vector2d& here);
+
+  [[nodiscard]] const GuidePath& path() const { return path_; }
+  /// No way leads to the goal, and the guide to the nearest place that one leads to.
+  [[nodiscard]] bool cut_off() const { return cut_off_; }
+  /// Is the robot at `here` as near to the goal as it can get?
+  [[nodiscard]] bool goal_out_of_reach(const Eigen::Vector2d& here) const;
+
+ private:
+  [[nodiscard]] bool way_clear(const OccupancyMap& map, const Eigen::Vector2d& here);
+  [[nodiscard]] Eigen::Vector2d last_free_position(const OccupancyMap& map, const Eigen::Vector2d& here);
+
+  bool approaches_cut_off_goal_;
+  double period_;          // [s]
+  double idle_period_;     // [s]
+  double goal_tolerance_;  // [m]
+  GuidePath path_;
+  std::vector<Eigen::Vector2d> way_;     // [m] kept for its memory
+  std::optional<Eigen::Vector2d> goal_;  // [m] that the guide stands for
+  bool cut_off_ = false;
+  double next_time_;           // [s]
+  double update_time_ = -1e9;  // [s]
+};
+
+}  // namespace spf
