@@ -70,6 +70,7 @@ struct Scene {
     request.goal_world = -start;
     request.world = {0.0, peer_count, &map, &tracks, &peers};
     guide.update(map, request.goal_world, start);
+    request.guide = &guide;
   }
 };
 
@@ -133,14 +134,14 @@ void one_plan(benchmark::State& state) {
     PlanRequest request = scene.request;
     Trajectory committed;
     if (warm) {
-      planner.plan(request, scene.guide, result);
+      planner.plan(request, result);
       committed = result.trajectory;
       request.time = request.world.time = 0.5;
       request.head = committed.state(0.5);
       request.committed = &committed;
     }
     const auto begin = std::chrono::steady_clock::now();
-    planner.plan(request, scene.guide, result);
+    planner.plan(request, result);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     state.SetIterationTime(seconds);
     milliseconds.push_back(1e3 * seconds);

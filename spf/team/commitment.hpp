@@ -4,10 +4,10 @@
 
 #include <optional>
 
+#include "spf/localisation/observer.hpp"
 #include "spf/planning/planner.hpp"
 #include "spf/robot/omni_kinematics.hpp"
 #include "spf/team/agent_parameters.hpp"
-#include "spf/tracking/observer.hpp"
 
 namespace spf {
 

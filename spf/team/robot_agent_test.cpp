@@ -391,6 +391,51 @@ TEST_P(RobotAgentMethodTest, GivesTheSameBitsForTheSameInputs) {
   EXPECT_GT((host.place - Eigen::Vector2d{-3.0, 0.0}).norm(), 1.0);
 }
 
+TEST(RobotAgent, MovedAsPlannedItNeedsNoPosesAndKnowsWhereItIs) {
+  for (const StateSource source : {StateSource::measured, StateSource::as_planned}) {
+    RobotAgent agent{1, AgentParameters{}, empty_map(), {{-3.0, 0.0}, 0.0}, 0.0, source};
+    agent.set_goal({3.0, 0.0});
+    for (int tick = 1; tick <= 1000; ++tick) {
+      const AgentOutput output = agent.step(0.01 * tick, {});
+      if (source == StateSource::as_planned && output.broadcast)
+        EXPECT_EQ(output.broadcast->position_sigma, 0.0);
+    }
+    const bool there = (agent.committed().position(10.0) - Eigen::Vector2d{3.0, 0.0}).norm() < 0.05;
+    EXPECT_EQ(there, source == StateSource::as_planned);
+  }
+}
+
+/// Plans nothing and counts what it is asked.
+class Counter final : public Planner {
+ public:
+  explicit Counter(int* calls) : calls_{calls} {}
+  void plan(const PlanRequest& request, PlanResult& result) override {
+    ++*calls_;
+    result.clear();
+    stand_instead(request, RobotParameters{}, PlanOutcome::unsafe, result);
+  }
+
+ private:
+  int* calls_;
+};
+
+TEST(RobotAgent, BuildsThePlannerItIsGivenAndNoOther) {
+  int made = 0;
+  int calls = 0;
+  AgentParameters parameters;
+  parameters.make_planner = [&](const AgentParameters&) {
+    ++made;
+    return std::make_unique<Counter>(&calls);
+  };
+  IdealHost host{parameters, empty_map(), {-3.0, 0.0}};
+  host.agent.set_goal({3.0, 0.0});
+  host.run(1.0);
+  EXPECT_EQ(made, 1);
+  EXPECT_NEAR(calls, 10, 1);
+  EXPECT_EQ(host.agent.status().reason, StandReason::planner_failed);
+  EXPECT_EQ(host.agent.last_plan().outcome, PlanOutcome::unsafe);
+}
+
 TEST(RobotAgent, RefusesWhatIsOutOfRange) {
   AgentParameters parameters;
   parameters.team.stale_time = std::numeric_limits<double>::quiet_NaN();

@@ -147,6 +147,61 @@ TEST_F(SpaceTimePlannerTest, LeadsOutOfAMarginAndAnObstacle) {
   EXPECT_GT((request.head.position_world - tracks[0].state.position_world).norm(), 0.7);
 }
 
+TEST_F(SpaceTimePlannerTest, SaysSoWhenNothingIsSafe) {
+  // Eight discs close in on a robot that stands: whatever it does, it meets one.
+  for (int k = 0; k < 8; ++k) {
+    const double angle = 0.25 * kPi * k;
+    const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
+    add_track(1.5 * direction, -0.8 * direction);
+  }
+  plan();
+  EXPECT_EQ(result.outcome, PlanOutcome::unsafe);
+  EXPECT_GE(result.blocking_track, 40);
+  EXPECT_GT(result.risk, 0.1);
+  EXPECT_LE(result.risk, 1.0);
+  EXPECT_FALSE(result.trajectory.empty());
+}
+
+TEST_F(SpaceTimePlannerTest, SaysThatTheGoalIsCutOffAndGoesOnAllTheSame) {
+  request.goal_cut_off = true;
+  plan();
+  EXPECT_EQ(result.outcome, PlanOutcome::no_path);
+  EXPECT_EQ(result.action, PlanAction::follow);
+  EXPECT_GT(result.trajectory.position(kTime + 2.0).x(), 1.0);
+}
+
+TEST_F(SpaceTimePlannerTest, KeepsAPlanThatIsStillTheBest) {
+  plan();
+  EXPECT_EQ(result.action, PlanAction::follow);
+  old_plan = result.trajectory;
+  request.time += 0.1;
+  request.head = old_plan.state(request.time);
+  request.committed = &old_plan;
+  plan();
+  EXPECT_EQ(result.action, PlanAction::keep);
+  EXPECT_EQ(result.outcome, PlanOutcome::success);
+  EXPECT_EQ(result.trajectory.start_time(), kTime);
+}
+
+TEST_F(SpaceTimePlannerTest, RefusesWhatIsNoRequest) {
+  plan();
+  PlanRequest bad = request;
+  bad.head.velocity_world.x() = std::numeric_limits<double>::quiet_NaN();
+  planner.plan(bad, result);
+  EXPECT_EQ(result.outcome, PlanOutcome::invalid_request);
+  EXPECT_TRUE(result.trajectory.tail_position().allFinite());
+  bad = request;
+  bad.guide = nullptr;
+  planner.plan(bad, result);
+  EXPECT_EQ(result.outcome, PlanOutcome::invalid_request);
+  bad = request;
+  const GuidePath no_free_goal{GuidePathParameters{}};
+  bad.guide = &no_free_goal;
+  planner.plan(bad, result);
+  EXPECT_EQ(result.outcome, PlanOutcome::no_path);
+  EXPECT_EQ(result.trajectory.tail_position(), request.head.position_world);
+}
+
 TEST_F(SpaceTimePlannerTest, KeepsEveryCandidateOnlyWhenAsked) {
   add_track({2.5, 0.05}, {-0.6, 0.0});
   plan();
