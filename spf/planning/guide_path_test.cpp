@@ -118,7 +118,7 @@ double nearest_surface(const Eigen::Vector2d& p, const std::vector<Box>& boxes) 
   return nearest;
 }
 
-TEST(GuidePath, MatchesTheVisibilityGraph) {
+TEST(GuidePathSlow, MatchesTheVisibilityGraph) {
   const GuidePathParameters parameters;
   double sum = 0.0;
   int compared = 0;

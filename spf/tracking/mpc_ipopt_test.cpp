@@ -5,7 +5,7 @@
 
 #ifndef SPF_HAVE_IPOPT
 
-TEST(MpcAgainstIpopt, IsComparedWhereIpoptIsInstalled) {
+TEST(MpcAgainstIpoptSlow, IsComparedWhereIpoptIsInstalled) {
   GTEST_SKIP() << "configured without Ipopt (coinor-libipopt-dev)";
 }
 
@@ -108,7 +108,7 @@ void expect_agreement(const Comparison& found, int count) {
   EXPECT_LT(found.optimality_residual, 1e-6);
 }
 
-TEST(MpcAgainstIpopt, DerivativesOfTheOracle) {
+TEST(MpcAgainstIpoptSlow, DerivativesOfTheOracle) {
   MpcInstanceOptions options;
   options.wall_share = 1.0;
   options.rate_weight = 0.1;
@@ -127,7 +127,7 @@ TEST(MpcAgainstIpopt, DerivativesOfTheOracle) {
   }
 }
 
-TEST(MpcAgainstIpopt, PaperHorizon) {
+TEST(MpcAgainstIpoptSlow, PaperHorizon) {
   const Comparison found = compare_cold(101, 1250, MpcInstanceOptions{});
   expect_agreement(found, 1250);
   EXPECT_EQ(found.other_minima, 0);
@@ -135,13 +135,13 @@ TEST(MpcAgainstIpopt, PaperHorizon) {
   EXPECT_GT(found.bounds_violated, 100);
 }
 
-TEST(MpcAgainstIpopt, SmallArmOfThePaper) {
+TEST(MpcAgainstIpoptSlow, SmallArmOfThePaper) {
   MpcInstanceOptions options;
   options.wheel_arm = 0.04;
   expect_agreement(compare_cold(102, 250, options), 250);
 }
 
-TEST(MpcAgainstIpopt, InfeasibleStarts) {
+TEST(MpcAgainstIpoptSlow, InfeasibleStarts) {
   MpcInstanceOptions options;
   options.wall_share = 1.0;
   options.wall_ahead_low = -0.5;
@@ -151,7 +151,7 @@ TEST(MpcAgainstIpopt, InfeasibleStarts) {
   EXPECT_GT(found.bounds_violated, 150);
 }
 
-TEST(MpcAgainstIpopt, HeadingErrorsDisturbanceAndRateWeight) {
+TEST(MpcAgainstIpoptSlow, HeadingErrorsDisturbanceAndRateWeight) {
   MpcInstanceOptions options;
   options.heading_error = 0.8;
   options.disturbance = 0.3;
@@ -159,7 +159,7 @@ TEST(MpcAgainstIpopt, HeadingErrorsDisturbanceAndRateWeight) {
   expect_agreement(compare_cold(104, 150, options), 150);
 }
 
-TEST(MpcAgainstIpopt, LongerHorizons) {
+TEST(MpcAgainstIpoptSlow, LongerHorizons) {
   MpcInstanceOptions options;
   options.horizon = 10;
   expect_agreement(compare_cold(105, 100, options), 100);
@@ -169,7 +169,7 @@ TEST(MpcAgainstIpopt, LongerHorizons) {
 
 // Warm: one controller along a chain of steps with jumps of the estimate; the active set of the step before
 // must not change the answer.
-TEST(MpcAgainstIpopt, WarmStarts) {
+TEST(MpcAgainstIpoptSlow, WarmStarts) {
   Comparison found;
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = make_ipopt(1e-10);
   MpcInstanceOptions options;
@@ -196,7 +196,7 @@ TEST(MpcAgainstIpopt, WarmStarts) {
 }
 
 // The default of two iterations, as it is used: near-optimal.
-TEST(MpcAgainstIpopt, TwoIterationsAreNearOptimal) {
+TEST(MpcAgainstIpoptSlow, TwoIterationsAreNearOptimal) {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = make_ipopt(1e-10);
   Comparison found;
   for (std::uint64_t i = 0; i < 100; ++i) {
@@ -214,7 +214,7 @@ TEST(MpcAgainstIpopt, TwoIterationsAreNearOptimal) {
 }
 
 // Far off, where the wheels saturate all the way and Gauss-Newton alone would swing to and fro.
-TEST(MpcAgainstIpopt, TwoIterationsAreUsableFarFromTheReference) {
+TEST(MpcAgainstIpoptSlow, TwoIterationsAreUsableFarFromTheReference) {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = make_ipopt(1e-10);
   MpcInstanceOptions options;
   options.position_error = 1.5;

@@ -473,7 +473,7 @@ void draw_crowd(RandomStream& random, Scene& scene) {
   scene.request.head.velocity_world = 0.6 * random.uniform() * random.normal2().normalized();
 }
 
-TEST(FieldPlanner, EndsWithinItsBudgetWhateverTheScene) {
+TEST(FieldPlannerSlow, EndsWithinItsBudgetWhateverTheScene) {
   RandomStream random{61};
   PlanResult result;
   int successes = 0;
