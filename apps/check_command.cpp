@@ -23,9 +23,9 @@ std::string scene_text(const sim::Scenario& scenario) {
     if (count > 0) text += ", " + std::to_string(count) + " " + what;
   };
   add(scenario.boxes.size(), "boxes");
-  add(scenario.pillars.size(), "static discs");
+  add(scenario.discs.size(), "static discs");
   add(scenario.walls.size(), "walls");
-  add(scenario.discs.size(), "moving discs");
+  add(scenario.moving.size(), "moving discs");
   std::set<int> people;
   for (const sim::CrowdSample& sample : scenario.crowd) people.insert(sample.id);
   add(people.size(), "recorded people");

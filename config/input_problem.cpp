@@ -13,11 +13,27 @@ std::string to_string(const SourcePlace& place) {
   return text;
 }
 
-void InputProblems::add(const SourcePlace& place, std::string sentence) {
+namespace {
+
+/// Is the path `inner` the path `outer`, or a part of it?
+bool lies_within(std::string_view inner, std::string_view outer) {
+  if (inner.substr(0, outer.size()) != outer) return false;
+  return inner.size() == outer.size() || inner[outer.size()] == '.' || inner[outer.size()] == '[';
+}
+
+}  // namespace
+
+void InputProblems::add(const SourcePlace& place, std::string sentence, std::string key) {
   if (kept_.size() == kMostProblems)
     ++left_out_;
   else
-    kept_.push_back({place, std::move(sentence)});
+    kept_.push_back({place, std::move(sentence), std::move(key)});
+}
+
+bool InputProblems::refuses(std::string_view key) const {
+  return std::any_of(kept_.begin(), kept_.end(), [key](const InputProblem& problem) {
+    return !problem.key.empty() && (lies_within(key, problem.key) || lies_within(problem.key, key));
+  });
 }
 
 std::string InputProblems::to_text() const {

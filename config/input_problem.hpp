@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spf {
@@ -21,6 +22,7 @@ struct SourcePlace {
 struct InputProblem {
   SourcePlace place;
   std::string sentence;  ///< "noise.level = -1 must lie in [0, 100]"
+  std::string key;       ///< path of what is refused, "noise.level"; empty when it is no value of a document
 };
 
 /// Collects problems in the order in which they are found. Keeps the first `kMostProblems` and counts the
@@ -29,7 +31,9 @@ class InputProblems {
  public:
   static constexpr std::size_t kMostProblems = 100;
 
-  void add(const SourcePlace& place, std::string sentence);
+  void add(const SourcePlace& place, std::string sentence, std::string key = {});
+  /// Was the value at a key path refused, or what it is part of, or a part of it?
+  [[nodiscard]] bool refuses(std::string_view key) const;
   [[nodiscard]] bool empty() const { return kept_.empty(); }
   [[nodiscard]] const std::vector<InputProblem>& kept() const { return kept_; }
   [[nodiscard]] std::size_t left_out() const { return left_out_; }

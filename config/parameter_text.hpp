@@ -24,7 +24,7 @@ namespace spf {
 /// In quotation marks, escaped.
 [[nodiscard]] std::string to_text(const std::string& value);
 /// The name of an enumerator.
-template <class E, class = std::enable_if_t<std::is_enum_v<E>>>
+template <class E, class = decltype(EnumNames<E>::values)>
 [[nodiscard]] std::string to_text(E value) {
   return enum_name(value);
 }
@@ -32,7 +32,7 @@ template <class E, class = std::enable_if_t<std::is_enum_v<E>>>
 /// What may stand there: "true, false", "text", or the names of an enumeration.
 [[nodiscard]] std::string choices_of(bool);
 [[nodiscard]] std::string choices_of(const std::string&);
-template <class E, class = std::enable_if_t<std::is_enum_v<E>>>
+template <class E, class = decltype(EnumNames<E>::values)>
 [[nodiscard]] std::string choices_of(E) {
   std::string names;
   for (const auto& entry : EnumNames<E>::values)

@@ -108,7 +108,7 @@ std::string last_part(const std::string& key) {
 }  // namespace
 
 void ReadTarget::refuse(const std::string& sentence) const {
-  problems.add(node.place, key + " = " + shown(node) + " " + sentence);
+  problems.add(node.place, key + " = " + shown(node) + " " + sentence, key);
 }
 
 void read_value(const ReadTarget& target, const char* unit, Range range, double& value) {
@@ -179,7 +179,7 @@ const YamlNode* FieldReader::take_list(const char* name) {
 }
 
 void FieldReader::required(const char* name) {
-  if (map_.find(name) == nullptr) problems_.add(map_.place, prefix_ + name + " is missing");
+  if (map_.find(name) == nullptr) problems_.add(map_.place, prefix_ + name + " is missing", prefix_ + name);
 }
 
 void FieldReader::finish() {
@@ -196,6 +196,13 @@ void FieldReader::finish() {
     problems_.add(entry.key_place, prefix_ + shown(key) + " = " + shown(entry.value) + " is not a known key" +
                                        (meant ? "; did you mean " + *meant + "?" : ""));
   }
+}
+
+bool require_map(const YamlNode& root, InputProblems& problems) {
+  if (root.kind == YamlKind::map) return true;
+  if (root.kind != YamlKind::nothing || problems.empty())
+    problems.add(root.place, "must be a map of keys and values, not " + shown(root));
+  return false;
 }
 
 }  // namespace spf

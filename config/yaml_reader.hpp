@@ -48,7 +48,7 @@ void read_choice(const ReadTarget& target, std::string& value);
 [[nodiscard]] std::optional<std::size_t> read_name(const ReadTarget& target,
                                                    const std::vector<std::string>& names);
 
-template <class E, class = std::enable_if_t<std::is_enum_v<E>>>
+template <class E, class = decltype(EnumNames<E>::values)>
 void read_choice(const ReadTarget& target, E& value) {
   std::vector<std::string> names;
   for (const auto& entry : EnumNames<E>::values) names.emplace_back(entry.second);
@@ -178,14 +178,13 @@ class FieldReader {
   std::vector<std::string> known_;
 };
 
+/// Is the document a map? If not, says so, unless it could not be read at all, which has been said.
+[[nodiscard]] bool require_map(const YamlNode& root, InputProblems& problems);
+
 /// Reads the document `root` over `parameters`: keys that are absent keep their value.
 template <class Parameters>
 void read_parameters(const YamlNode& root, Parameters& parameters, InputProblems& problems) {
-  if (root.kind != YamlKind::map) {
-    if (root.kind != YamlKind::nothing || problems.empty())
-      problems.add(root.place, "must be a map of keys and values, not " + shown(root));
-    return;
-  }
+  if (!require_map(root, problems)) return;
   const std::vector<std::string> keys = keys_of(parameters);
   FieldReader reader{root, "", keys, problems};
   Parameters::visit_fields(parameters, reader);

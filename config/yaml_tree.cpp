@@ -153,14 +153,20 @@ SourcePlace place_of_byte(std::string_view text, std::size_t offset, const std::
 
 }  // namespace
 
+namespace {
+auto entry_of(std::string_view key) {
+  return [key](const YamlEntry& entry) { return entry.key == key; };
+}
+}  // namespace
+
 const YamlNode* YamlNode::find(std::string_view key) const {
-  for (const YamlEntry& entry : entries)
-    if (entry.key == key) return &entry.value;
-  return nullptr;
+  const auto found = std::find_if(entries.begin(), entries.end(), entry_of(key));
+  return found == entries.end() ? nullptr : &found->value;
 }
 
 YamlNode* YamlNode::find(std::string_view key) {
-  return const_cast<YamlNode*>(std::as_const(*this).find(key));
+  const auto found = std::find_if(entries.begin(), entries.end(), entry_of(key));
+  return found == entries.end() ? nullptr : &found->value;
 }
 
 YamlNode parse_yaml(std::string_view text, const std::string& source, InputProblems& problems,
@@ -265,6 +271,27 @@ std::optional<std::vector<PathStep>> split_path(std::string_view path) {
   }
 }
 
+/// Follows one step of a setting's path, making the keys that are not there; why it cannot, empty when it
+/// can.
+std::string step_into(YamlNode*& node, const PathStep& step, const SourcePlace& place) {
+  if (step.index) {
+    if (node->kind != YamlKind::list || *step.index >= node->items.size())
+      return "there is no entry [" + std::to_string(*step.index) + "]; the list has " +
+             std::to_string(node->items.size());
+    node = &node->items[*step.index];
+    return "";
+  }
+  if (node->kind == YamlKind::nothing) {
+    node->kind = YamlKind::map;
+    node->place = place;
+  }
+  if (node->kind != YamlKind::map) return shown(*node) + " has no key " + step.key;
+  if (node->find(step.key) == nullptr)
+    node->entries.push_back({step.key, place, YamlNode{YamlKind::nothing, place, {}, {}, {}, {}}});
+  node = node->find(step.key);
+  return "";
+}
+
 /// Maps are merged key by key, anything else replaces what was there.
 void merge_over(YamlNode& target, YamlNode value) {
   if (target.kind != YamlKind::map || value.kind != YamlKind::map) {
@@ -304,26 +331,8 @@ void apply_setting(YamlNode& root, const std::string& assignment, const std::str
 
   YamlNode* node = &root;
   for (const PathStep& step : *steps) {
-    if (step.index) {
-      if (node->kind != YamlKind::list || *step.index >= node->items.size()) {
-        problems.add(place, path + ": there is no entry [" + std::to_string(*step.index) +
-                                "]; the list has " + std::to_string(node->items.size()));
-        return;
-      }
-      node = &node->items[*step.index];
-      continue;
-    }
-    if (node->kind == YamlKind::nothing) {
-      node->kind = YamlKind::map;
-      node->place = place;
-    }
-    if (node->kind != YamlKind::map) {
-      problems.add(place, path + ": " + shown(*node) + " has no key " + step.key);
-      return;
-    }
-    if (node->find(step.key) == nullptr)
-      node->entries.push_back({step.key, place, YamlNode{YamlKind::nothing, place, {}, {}, {}, {}}});
-    node = node->find(step.key);
+    const std::string obstacle = step_into(node, step, place);
+    if (!obstacle.empty()) return problems.add(place, path + ": " + obstacle);
   }
   merge_over(*node, std::move(value));
 }

@@ -1,6 +1,7 @@
 #include "experiments/campaign.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -57,15 +58,12 @@ class CellMaker {
     const std::vector<Contender> contenders = all_contenders();
     check_names(contenders);
     if (!problems_.empty()) return {};
-    const std::vector<Condition> none{Condition{}};
-    const std::vector<Condition>& conditions = campaign_.conditions.empty() ? none : campaign_.conditions;
-    for (std::size_t i = 0; i < conditions.size(); ++i)
-      for (const SceneSource& scene : scenes)
-        for (const std::optional<sim::NoiseModel>& noise : or_none(campaign_.noise))
-          for (const std::optional<double>& level : or_none(campaign_.levels))
-            for (const sim::TrackingMode tracking : {sim::TrackingMode::full, sim::TrackingMode::ideal})
-              for (const Contender& contender : contenders)
-                add({conditions[i], i, scene, noise, level, tracking, contender});
+    const std::size_t count = size_of(campaign_.conditions) * scenes.size() * size_of(campaign_.noise) *
+                              size_of(campaign_.levels) * kTracking.size() * contenders.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Choice choice = choice_at(i, scenes, contenders);
+      if (runs(choice)) add(choice);
+    }
     if (cells_.empty() && problems_.empty()) problems_.add(root_.place, "leaves no cell to run");
     refuse_duplicates();
     return std::move(cells_);
@@ -73,19 +71,36 @@ class CellMaker {
 
  private:
   struct Choice {
-    const Condition& condition;
+    const Condition* condition;  ///< null: none
     std::size_t condition_index;
-    const SceneSource& scene;
+    const SceneSource* scene;
     std::optional<sim::NoiseModel> noise;
     std::optional<double> level;
     sim::TrackingMode tracking;
-    const Contender& contender;
+    const Contender* contender;
   };
 
-  template <class Value>
-  static std::vector<std::optional<Value>> or_none(const std::vector<Value>& values) {
-    if (values.empty()) return {std::nullopt};
-    return {values.begin(), values.end()};
+  static constexpr std::array kTracking{sim::TrackingMode::full, sim::TrackingMode::ideal};
+
+  /// How many values an axis has; one that names none counts as one.
+  template <class Axis>
+  static std::size_t size_of(const Axis& axis) {
+    return std::max<std::size_t>(axis.size(), 1);
+  }
+
+  /// Entry `index` of the product of all axes, of which the last runs fastest.
+  [[nodiscard]] Choice choice_at(std::size_t index, const std::vector<SceneSource>& scenes,
+                                 const std::vector<Contender>& contenders) const {
+    const auto digit = [&index](std::size_t size) { return std::exchange(index, index / size) % size; };
+    Choice choice{};
+    choice.contender = &contenders[digit(contenders.size())];
+    choice.tracking = kTracking[digit(kTracking.size())];
+    if (!campaign_.levels.empty()) choice.level = campaign_.levels[digit(campaign_.levels.size())];
+    if (!campaign_.noise.empty()) choice.noise = campaign_.noise[digit(campaign_.noise.size())];
+    choice.scene = &scenes[digit(scenes.size())];
+    choice.condition_index = digit(size_of(campaign_.conditions));
+    if (!campaign_.conditions.empty()) choice.condition = &campaign_.conditions[choice.condition_index];
+    return choice;
   }
 
   [[nodiscard]] std::string place_of(const std::string& path) const {
@@ -162,12 +177,13 @@ class CellMaker {
   }
 
   [[nodiscard]] bool runs(const Choice& choice) const {
-    const std::vector<std::string>& methods = choice.condition.methods;
-    if (!methods.empty() && std::find(methods.begin(), methods.end(), choice.contender.name) == methods.end())
-      return false;
+    if (choice.condition != nullptr && !choice.condition->methods.empty()) {
+      const std::vector<std::string>& methods = choice.condition->methods;
+      if (std::find(methods.begin(), methods.end(), choice.contender->name) == methods.end()) return false;
+    }
     const std::vector<sim::TrackingMode>* modes = &campaign_.tracking;
-    if (choice.contender.variant != nullptr && !choice.contender.variant->tracking.empty())
-      modes = &choice.contender.variant->tracking;
+    if (choice.contender->variant != nullptr && !choice.contender->variant->tracking.empty())
+      modes = &choice.contender->variant->tracking;
     // None named: the scenario's own, which `add` takes once, under the first of the two.
     if (modes->empty()) return choice.tracking == sim::TrackingMode::full;
     return std::find(modes->begin(), modes->end(), choice.tracking) != modes->end();
@@ -177,12 +193,12 @@ class CellMaker {
   [[nodiscard]] std::vector<Setting> settings_of(const Choice& choice) const {
     std::vector<Setting> all;
     if (root_.find("seed") != nullptr) all.push_back({"seed=" + to_text(campaign_.seed), place_of("seed")});
-    if (choice.contender.method) all.push_back({"method=" + *choice.contender.method, place_of("methods")});
+    if (choice.contender->method) all.push_back({"method=" + *choice.contender->method, place_of("methods")});
     if (choice.noise)
       all.push_back({std::string{"noise.model="} + enum_name(*choice.noise), place_of("noise")});
     if (choice.level) all.push_back({"noise.level=" + to_text(*choice.level), place_of("levels")});
     const bool named = !campaign_.tracking.empty() ||
-                       (choice.contender.variant != nullptr && !choice.contender.variant->tracking.empty());
+                       (choice.contender->variant != nullptr && !choice.contender->variant->tracking.empty());
     if (named)
       all.push_back({std::string{"trial.tracking="} + enum_name(choice.tracking), place_of("tracking")});
     const auto add_list = [&](const std::vector<std::string>& list, const std::string& path) {
@@ -190,23 +206,24 @@ class CellMaker {
         all.push_back({list[i], place_of(path + "[" + std::to_string(i) + "]")});
     };
     add_list(campaign_.set, "set");
-    if (choice.contender.variant != nullptr)
-      add_list(choice.contender.variant->set, "variants[" + std::to_string(choice.contender.index) + "].set");
-    add_list(choice.condition.set, "conditions[" + std::to_string(choice.condition_index) + "].set");
+    if (choice.contender->variant != nullptr)
+      add_list(choice.contender->variant->set,
+               "variants[" + std::to_string(choice.contender->index) + "].set");
+    if (choice.condition != nullptr)
+      add_list(choice.condition->set, "conditions[" + std::to_string(choice.condition_index) + "].set");
     all.insert(all.end(), scene_settings_.begin(), scene_settings_.end());
     return all;
   }
 
   void add(const Choice& choice) {
-    if (!runs(choice)) return;
     try {
       const std::vector<Setting> settings = settings_of(choice);
-      Cell cell = cell_of(choice.scene.file.empty() ? study_from_text("family: " + choice.scene.name + "\n",
-                                                                      choice.scene.name, settings, known_)
-                                                    : read_study(choice.scene.file, settings, known_));
-      cell.key.family = choice.scene.name;
-      if (!choice.contender.name.empty()) cell.key.method = choice.contender.name;
-      cell.key.condition = choice.condition.name;
+      Cell cell = cell_of(choice.scene->file.empty() ? study_from_text("family: " + choice.scene->name + "\n",
+                                                                       choice.scene->name, settings, known_)
+                                                     : read_study(choice.scene->file, settings, known_));
+      cell.key.family = choice.scene->name;
+      if (!choice.contender->name.empty()) cell.key.method = choice.contender->name;
+      if (choice.condition != nullptr) cell.key.condition = choice.condition->name;
       const std::string problem = trials_problem(cell.study, campaign_.first, campaign_.trials);
       if (!problem.empty() && told_.insert(problem).second) refuse("trials", problem);
       cells_.push_back(std::move(cell));

@@ -37,7 +37,7 @@ TEST(Campaign, CrossesItsAxes) {
 TEST(Campaign, LeavesWhatItDoesNotNameToTheScenario) {
   const CampaignPlan plan = campaign_from_text("name: test\nfamilies: [p8]\n", "test.yaml", ".");
   ASSERT_EQ(plan.cells.size(), 1u);
-  const Study p8 = default_study(static_cast<SceneFamily>(sim::Family::p8), "space_time");
+  const Study p8 = default_study(SceneFamily{sim::Family::p8}, "space_time");
   EXPECT_EQ(to_yaml_text(plan.cells[0].study), to_yaml_text(p8));
 }
 

@@ -105,7 +105,7 @@ TEST(PedScenario, KnowsItsNumberOfTrials) {
   ASSERT_EQ(trial_count(study), 51);
   EXPECT_EQ(trials_problem(study, 0, 51), "");
   EXPECT_THAT(trials_problem(study, 50, 2), HasSubstr("51 windows of 60 s: trials 0 to 50"));
-  EXPECT_EQ(trial_count(default_study(static_cast<SceneFamily>(sim::Family::t2), "orca")), std::nullopt);
+  EXPECT_EQ(trial_count(default_study(SceneFamily{sim::Family::t2}, "orca")), std::nullopt);
 }
 
 TEST(PedScenario, IsRunAgainFromItsResolvedFile) {

@@ -7,7 +7,7 @@
 namespace spf {
 namespace {
 
-constexpr SceneFamily kShownFamily = static_cast<SceneFamily>(sim::Family::t2);
+constexpr SceneFamily kShownFamily{sim::Family::t2};
 
 /// "agent.tracker" of "agent.tracker.observer.kind": the heading under which a key stands.
 std::string section_of(const std::string& key) {
@@ -54,7 +54,7 @@ std::string presets() {
                        changes_text(base, default_study(kShownFamily, MethodChoice{method.name}))});
   Table families{{{"family", Alignment::left}, {"sets", Alignment::left}}};
   for (const auto& [family, name] : EnumNames<SceneFamily>::values)
-    if (family != kShownFamily && family != SceneFamily::explicit_scene)
+    if (family != kShownFamily && family != kExplicitScene)
       families.add_row({"`" + std::string{name} + "`", changes_text(base, default_study(family, standard))});
   return "## What a method sets\n\nA method is a planner and a set of parameters. Besides its planner it "
          "sets, compared with `" +
@@ -71,12 +71,11 @@ std::vector<ParameterRow> all_parameters() {
   std::vector<ParameterRow> of_scene;
   std::map<std::string, bool> known;
   for (const ParameterRow& row : rows) known[row.key] = true;
-  for (ParameterRow& row : parameter_rows(default_study(SceneFamily::explicit_scene, standard))) {
+  for (ParameterRow& row : parameter_rows(default_study(kExplicitScene, standard))) {
     if (row.key == "robots") row.what += " (family: explicit)";
     if (row.key == "robots" || !known.contains(row.key)) of_scene.push_back(std::move(row));
   }
-  for (const ParameterRow& row :
-       parameter_rows(default_study(static_cast<SceneFamily>(static_cast<int>(sim::Family::ped)), standard)))
+  for (const ParameterRow& row : parameter_rows(default_study({sim::Family::ped}, standard)))
     if (row.key == "crowd") of_scene.push_back(row);
   for (ParameterRow& row : of_scene)
     if (row.value == to_text(kUnsetPoint)) row.value = "required";

@@ -34,8 +34,8 @@ ReplayBox bounds_of(const sim::Scenario& scenario) {
   for (const sim::RobotTask& task : scenario.robots)
     bounds.extend(task.start.position_world).extend(task.goal_world);
   for (const sim::Box& box : scenario.boxes) bounds.extend(box.low).extend(box.high);
-  for (const sim::Pillar& pillar : scenario.pillars) bounds.extend(pillar.center);
-  for (const ObstacleState& disc : scenario.discs) bounds.extend(disc.position_world);
+  for (const sim::Disc& disc : scenario.discs) bounds.extend(disc.center);
+  for (const ObstacleState& disc : scenario.moving) bounds.extend(disc.position_world);
   for (const sim::CrowdSample& sample : scenario.crowd) bounds.extend(sample.position_world);
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1.0 + scenario.robot.radius);
   return {point(bounds.min() - margin), point(bounds.max() + margin)};
@@ -59,8 +59,7 @@ void describe_place(ReplayData& data, const sim::Scenario& scenario) {
   data.bounds = bounds_of(scenario);
   for (const sim::Box& box : scenario.boxes) data.boxes.push_back({point(box.low), point(box.high)});
   for (const sim::Segment& wall : scenario.walls) add_wall(data.boxes, wall);
-  for (const sim::Pillar& pillar : scenario.pillars)
-    data.discs.push_back({point(pillar.center), pillar.radius});
+  for (const sim::Disc& disc : scenario.discs) data.discs.push_back({point(disc.center), disc.radius});
 }
 
 // ---- what moves

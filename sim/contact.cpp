@@ -39,9 +39,11 @@ double first_below(const Function& at, double limit) {
 
 }  // namespace
 
+// The words stand in result files, so they stay: discs that move are called discs there, and discs that
+// stand, pillars.
 const char* to_string(ContactWith with) {
   switch (with) {
-    case ContactWith::disc:
+    case ContactWith::moving:
       return "disc";
     case ContactWith::person:
       return "person";
@@ -49,7 +51,7 @@ const char* to_string(ContactWith with) {
       return "robot";
     case ContactWith::box:
       return "box";
-    case ContactWith::pillar:
+    case ContactWith::disc:
       return "pillar";
     case ContactWith::wall:
       return "wall";
@@ -80,7 +82,7 @@ std::optional<double> first_within(const Motion& a, const Motion& b, double dist
 StaticShapes::StaticShapes(const Scenario& scenario)
     : border_{scenario.border},
       boxes_{scenario.boxes},
-      pillars_{scenario.pillars},
+      discs_{scenario.discs},
       walls_{scenario.walls},
       grid_{kCell} {
   const auto add = [this](ContactWith kind, std::size_t index, const Eigen::Vector2d& center, double reach) {
@@ -91,8 +93,8 @@ StaticShapes::StaticShapes(const Scenario& scenario)
   for (std::size_t i = 0; i < boxes_.size(); ++i)
     add(ContactWith::box, i, 0.5 * (boxes_[i].low + boxes_[i].high),
         0.5 * (boxes_[i].high - boxes_[i].low).norm());
-  for (std::size_t i = 0; i < pillars_.size(); ++i)
-    add(ContactWith::pillar, i, pillars_[i].center, pillars_[i].radius);
+  for (std::size_t i = 0; i < discs_.size(); ++i)
+    add(ContactWith::disc, i, discs_[i].center, discs_[i].radius);
   for (std::size_t i = 0; i < walls_.size(); ++i)
     add(ContactWith::wall, i, 0.5 * (walls_[i].from + walls_[i].to),
         0.5 * (walls_[i].to - walls_[i].from).norm());
@@ -102,8 +104,7 @@ StaticShapes::StaticShapes(const Scenario& scenario)
 double StaticShapes::distance_to(const Shape& shape, const Eigen::Vector2d& place) const {
   const auto index = static_cast<std::size_t>(shape.index);
   if (shape.kind == ContactWith::box) return distance_to_box(place, boxes_[index]);
-  if (shape.kind == ContactWith::pillar)
-    return (place - pillars_[index].center).norm() - pillars_[index].radius;
+  if (shape.kind == ContactWith::disc) return (place - discs_[index].center).norm() - discs_[index].radius;
   return distance_to_segment(place, walls_[index]);
 }
 
@@ -111,8 +112,8 @@ double StaticShapes::swept_distance_to(const Shape& shape, const Motion& motion)
   const auto index = static_cast<std::size_t>(shape.index);
   const Segment path{motion.from, motion.to};
   if (shape.kind == ContactWith::box) return distance_between(path, boxes_[index]);
-  if (shape.kind == ContactWith::pillar)
-    return distance_to_segment(pillars_[index].center, path) - pillars_[index].radius;
+  if (shape.kind == ContactWith::disc)
+    return distance_to_segment(discs_[index].center, path) - discs_[index].radius;
   return distance_between_segments(path, walls_[index]);
 }
 

@@ -10,7 +10,7 @@
 
 namespace spf::sim {
 
-enum class ContactWith { disc, person, robot, box, pillar, wall, border };
+enum class ContactWith { moving, person, robot, box, disc, wall, border };
 [[nodiscard]] const char* to_string(ContactWith with);
 
 /// Who touched what, when, and how fast both were.
@@ -18,7 +18,8 @@ struct Contact {
   double time = 0.0;  ///< [s]
   int robot = -1;
   ContactWith with = ContactWith::border;
-  int other = -1;  ///< robot number, disc or person id, index of the box, pillar or wall; -1 = the border
+  int other =
+      -1;  ///< robot number, id of the moving disc or person, index of the box, disc or wall; -1 = the border
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m] of the robot
   double robot_speed = 0.0;                                  ///< [m/s]
   double other_speed = 0.0;                                  ///< [m/s]
@@ -60,7 +61,7 @@ class StaticShapes {
 
   std::optional<Box> border_;
   std::vector<Box> boxes_;
-  std::vector<Pillar> pillars_;
+  std::vector<Disc> discs_;
   std::vector<Segment> walls_;
   std::vector<Shape> shapes_;
   std::vector<Eigen::Vector2d> centers_;  // of the shapes

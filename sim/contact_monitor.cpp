@@ -78,7 +78,7 @@ void ContactMonitor::check_movers(const Tick& tick, std::size_t robot, const Rob
     Contact contact = contact_of(tick, first_within(truth.motion, motion, sum).value_or(0.0), robot, truth);
     contact.other = mover.id;
     contact.other_speed = length(mover.motion) / Movers::kStep;
-    contact.with = mover.person ? ContactWith::person : ContactWith::disc;
+    contact.with = mover.person ? ContactWith::person : ContactWith::moving;
     const bool stood = standing_time_[robot] >= kStandingTime;
     (mover.person && stood ? hits_while_standing_ : contacts_).push_back(contact);
   }

@@ -65,7 +65,7 @@ TEST(ContactMonitor, RecordsWhoWithWhatWhenAndHowFast) {
   ASSERT_EQ(monitor.contacts().size(), 1U);
   const Contact& contact = monitor.contacts()[0];
   EXPECT_EQ(contact.robot, 1);
-  EXPECT_EQ(contact.with, ContactWith::disc);
+  EXPECT_EQ(contact.with, ContactWith::moving);
   EXPECT_EQ(contact.other, 0);
   EXPECT_NEAR(contact.time, kDt + 0.7 * kDt, 1e-9);
   EXPECT_NEAR(contact.robot_speed, 1.0, 1e-9);
@@ -138,7 +138,7 @@ TEST(ContactMonitor, ShortcutsFindWhatALookAtEverythingFinds) {
   scenario.border = square(Eigen::Vector2d::Zero(), 24.0);
   for (int i = 0; i < 8; ++i)
     scenario.boxes.push_back(square({random.uniform(-9, 9), random.uniform(-9, 9)}, 1.0));
-  scenario.pillars = {{{5.0, 5.0}, 0.7}};
+  scenario.discs = {{{5.0, 5.0}, 0.7}};
   constexpr std::size_t kRobots = 12;
   scenario.robots.resize(kRobots);
   const double radius = scenario.robot.radius;

@@ -70,7 +70,7 @@ TEST(Contact, StaticShapesMatchSampling) {
     Scenario scenario;
     scenario.border = square(Eigen::Vector2d::Zero(), 2.2);
     scenario.boxes = {square(draw(random, 1.0), random.uniform(0.1, 0.5))};
-    scenario.pillars = {{draw(random, 1.0), random.uniform(0.05, 0.3)}};
+    scenario.discs = {{draw(random, 1.0), random.uniform(0.05, 0.3)}};
     scenario.walls = {{draw(random, 1.0), draw(random, 1.0)}};
     const double radius = random.uniform(0.02, 0.2);
     const Motion motion = draw_motion(random);
@@ -82,7 +82,7 @@ TEST(Contact, StaticShapesMatchSampling) {
       const Eigen::Vector2d place = motion.at(share);
       const double clearance =
           std::min({depth_inside(place, *scenario.border), distance_to_box(place, scenario.boxes[0]),
-                    (place - scenario.pillars[0].center).norm() - scenario.pillars[0].radius,
+                    (place - scenario.discs[0].center).norm() - scenario.discs[0].radius,
                     distance_to_segment(place, scenario.walls[0])}) -
           radius;
       EXPECT_NEAR(shapes.clearance(place, radius), clearance, 1e-12);

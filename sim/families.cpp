@@ -93,9 +93,9 @@ bool draw_disc(RandomStream& random, const LayoutParameters& layout, Scenario& s
     if ((disc.position_world - task.start.position_world).norm() < kStartGap) return false;
   for (const Box& box : scenario.boxes)
     if (distance_to_box(disc.position_world, box) < disc.radius + kBoxGap) return false;
-  for (const ObstacleState& other : scenario.discs)
+  for (const ObstacleState& other : scenario.moving)
     if ((disc.position_world - other.position_world).norm() < kDiscGap) return false;
-  scenario.discs.push_back(disc);
+  scenario.moving.push_back(disc);
   return true;
 }
 
@@ -154,9 +154,9 @@ bool draw_platform_disc(RandomStream& random, const LayoutParameters& layout, Sc
     if ((disc.position_world - task.start.position_world).norm() < kStartGap) return false;
   for (const Box& box : scenario.boxes)
     if (distance_to_box(disc.position_world, box) < disc.radius + kGap) return false;
-  for (const ObstacleState& other : scenario.discs)
+  for (const ObstacleState& other : scenario.moving)
     if ((disc.position_world - other.position_world).norm() < disc.radius + other.radius + kGap) return false;
-  scenario.discs.push_back(disc);
+  scenario.moving.push_back(disc);
   return true;
 }
 
@@ -224,7 +224,7 @@ bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& 
       return true;
     });
     if (!placed) return false;
-    scenario.pillars.push_back({pillars.back(), kPillarRadius});
+    scenario.discs.push_back({pillars.back(), kPillarRadius});
   }
   return true;
 }

@@ -43,8 +43,7 @@ Scenario scene(Family family, int trial) {
 
 std::string problems_text(const Scenario& scenario) {
   std::string text;
-  for (const ScenarioProblem& problem : problems_of(scenario))
-    text += problem.where + ": " + problem.what + "\n";
+  for (const ScenarioProblem& problem : problems_of(scenario)) text += to_text(problem) + "\n";
   return text;
 }
 
@@ -69,9 +68,9 @@ TEST(Families, T2ReproducesTheReferenceScenes) {
       EXPECT_LT((scenario.boxes.at(row.index).high - expected.high).norm(), 2.0 * kTolerance);
     } else {
       ASSERT_EQ(row.kind, "disc");
-      EXPECT_LT((scenario.discs.at(row.index).position_world - position).norm(), kTolerance);
-      EXPECT_LT((scenario.discs.at(row.index).velocity_world - second).norm(), kTolerance);
-      EXPECT_NEAR(scenario.discs.at(row.index).radius, row.size, kTolerance);
+      EXPECT_LT((scenario.moving.at(row.index).position_world - position).norm(), kTolerance);
+      EXPECT_LT((scenario.moving.at(row.index).velocity_world - second).norm(), kTolerance);
+      EXPECT_NEAR(scenario.moving.at(row.index).radius, row.size, kTolerance);
     }
   }
 }
@@ -86,7 +85,7 @@ TEST(Families, EveryFamilyDrawsUsableScenesOfItsSize) {
       EXPECT_EQ(problems_text(scenario), "");
       EXPECT_EQ(static_cast<int>(scenario.robots.size()), setup.layout.robots);
       EXPECT_EQ(static_cast<int>(scenario.boxes.size()), setup.layout.squares);
-      EXPECT_EQ(static_cast<int>(scenario.discs.size()), setup.layout.discs);
+      EXPECT_EQ(static_cast<int>(scenario.moving.size()), setup.layout.discs);
     }
   }
 }
@@ -96,8 +95,8 @@ TEST(Families, T2HardKeepsItsGapsAndDrawsItsRadii) {
   double largest = 0.0;
   for (int trial = 0; trial < 40; ++trial) {
     const Scenario scenario = scene(Family::t2_hard, trial);
-    for (std::size_t i = 0; i < scenario.discs.size(); ++i) {
-      const ObstacleState& disc = scenario.discs[i];
+    for (std::size_t i = 0; i < scenario.moving.size(); ++i) {
+      const ObstacleState& disc = scenario.moving[i];
       smallest = std::min(smallest, disc.radius);
       largest = std::max(largest, disc.radius);
       EXPECT_LE(disc.velocity_world.norm(), 1.2);
@@ -130,7 +129,7 @@ TEST(Families, FieldHasEqualDensityAndGoalsInReach) {
     FamilySetup setup = family_setup(Family::field);
     setup.layout.robots = robots;
     const Scenario scenario = make_scenario(setup, kDefaultSeed, 0);
-    EXPECT_EQ(static_cast<int>(scenario.pillars.size()), robots / 4);
+    EXPECT_EQ(static_cast<int>(scenario.discs.size()), robots / 4);
     EXPECT_NEAR((scenario.border->high - scenario.border->low).x(), 5.0 * std::sqrt(robots) + 2.0, 1e-9);
     for (const RobotTask& task : scenario.robots) {
       const double way = (task.goal_world - task.start.position_world).norm();
@@ -192,13 +191,13 @@ TEST(Scenario, TellsEveryProblemWithItsPlace) {
   scenario.robots[2].goal_world = 0.5 * (scenario.boxes[3].low + scenario.boxes[3].high);
   scenario.robots[3].start.position_world.x() = std::nan("");
   scenario.robots[4].start.position_world = {14.9, 0.0};
-  scenario.discs[0].radius = -1.0;
+  scenario.moving[0].radius = -1.0;
   scenario.boxes[5].low = scenario.boxes[5].high;
   scenario.simulation.radio.loss = 2.0;
   scenario.simulation.trial.plant_rate = 123.0;
   const std::string text = problems_text(scenario);
-  for (const char* expected : {"robots[2].goal", "robots[3].start", "robots[4].start", "discs[0]", "boxes[5]",
-                               "radio.loss = 2", "plant_rate = 123"})
+  for (const char* expected : {"robots[2].goal", "robots[3].start", "robots[4].start", "moving[0]",
+                               "boxes[5]", "radio.loss = 2", "plant_rate = 123"})
     EXPECT_NE(text.find(expected), std::string::npos) << expected << " in\n" << text;
 
   scenario = scene(Family::t2, 0);

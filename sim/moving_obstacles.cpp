@@ -70,12 +70,12 @@ void push_away_from(const Eigen::Vector2d& point, double gap, ObstacleState& dis
 MovingObstacles::MovingObstacles(const Scenario& scenario)
     : border_{scenario.border},
       boxes_{scenario.boxes},
-      pillars_{scenario.pillars},
+      discs_{scenario.discs},
       walls_{scenario.walls},
       noise_{scenario.simulation.noise},
       random_{noise_seed(scenario)},
-      now_{scenario.discs},
-      next_{scenario.discs} {}
+      now_{scenario.moving},
+      next_{scenario.moving} {}
 
 void MovingObstacles::advance() {
   std::swap(now_, next_);
@@ -95,7 +95,7 @@ void MovingObstacles::advance() {
     disc.position_world += velocity * kStep + position_noise;
     if (border_) reflect_at_border(*border_, disc);
     for (const Box& box : boxes_) push_out_of_box(box, disc);
-    for (const Pillar& pillar : pillars_) push_away_from(pillar.center, pillar.radius + disc.radius, disc);
+    for (const Disc& fixed : discs_) push_away_from(fixed.center, fixed.radius + disc.radius, disc);
     for (const Segment& wall : walls_)
       push_away_from(nearest_on_segment(disc.position_world, wall), disc.radius, disc);
   }

@@ -36,7 +36,7 @@ class MovingObstacles {
  private:
   std::optional<Box> border_;
   std::vector<Box> boxes_;
-  std::vector<Pillar> pillars_;
+  std::vector<Disc> discs_;
   std::vector<Segment> walls_;
   ObstacleNoiseParameters noise_;
   RandomStream random_;

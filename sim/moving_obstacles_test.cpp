@@ -25,9 +25,9 @@ ObstacleState disc_at(double x, double y, double vx, double vy, double radius = 
 
 TEST(MovingObstacles, WithoutNoiseMoveAtConstantVelocity) {
   Scenario scenario = open_place(0.0, NoiseModel::walk);
-  scenario.discs = {disc_at(1.0, 2.0, 0.5, -0.25)};
+  scenario.moving = {disc_at(1.0, 2.0, 0.5, -0.25)};
   MovingObstacles obstacles{scenario};
-  EXPECT_EQ(obstacles.now()[0].position_world, scenario.discs[0].position_world);
+  EXPECT_EQ(obstacles.now()[0].position_world, scenario.moving[0].position_world);
   for (int step = 0; step < 100; ++step) obstacles.advance();
   // 100 sums of numbers below 10: rounding stays below 100 * 1e-15.
   EXPECT_LT((obstacles.next()[0].position_world - Eigen::Vector2d{6.0, -0.5}).norm(), 1e-12);
@@ -37,16 +37,16 @@ TEST(MovingObstacles, WithoutNoiseMoveAtConstantVelocity) {
 
 TEST(MovingObstacles, WhiteNoiseHasThePrintedCovarianceAndKeepsTheVelocity) {
   Scenario scenario = open_place(2.0, NoiseModel::white);
-  scenario.discs = {disc_at(0.0, 0.0, 0.6, 0.0), disc_at(5.0, 5.0, 0.0, 0.6)};
+  scenario.moving = {disc_at(0.0, 0.0, 0.6, 0.0), disc_at(5.0, 5.0, 0.0, 0.6)};
   MovingObstacles obstacles{scenario};
   constexpr int kSteps = 20000;
   Eigen::Array2d sum = Eigen::Array2d::Zero();
   Eigen::Array2d sum_of_squares = Eigen::Array2d::Zero();
   for (int step = 0; step < kSteps; ++step) {
     obstacles.advance();
-    EXPECT_EQ(obstacles.next()[1].velocity_world, scenario.discs[1].velocity_world);
+    EXPECT_EQ(obstacles.next()[1].velocity_world, scenario.moving[1].velocity_world);
     const Eigen::Array2d error = obstacles.next()[1].position_world - obstacles.now()[1].position_world -
-                                 0.1 * scenario.discs[1].velocity_world;
+                                 0.1 * scenario.moving[1].velocity_world;
     sum += error;
     sum_of_squares += error * error;
   }
@@ -61,7 +61,7 @@ TEST(MovingObstacles, WhiteNoiseHasThePrintedCovarianceAndKeepsTheVelocity) {
 TEST(MovingObstacles, WalkChangesTheVelocityByItsCovarianceAndClipsIt) {
   Scenario scenario = open_place(0.25, NoiseModel::walk);
   scenario.simulation.noise.speed_limit = 1e6;
-  scenario.discs = {disc_at(0.0, 0.0, 0.6, 0.0)};
+  scenario.moving = {disc_at(0.0, 0.0, 0.6, 0.0)};
   MovingObstacles free_walk{scenario};
   constexpr int kSteps = 20000;
   double sum_of_squares = 0.0;
@@ -87,7 +87,7 @@ TEST(MovingObstacles, WalkChangesTheVelocityByItsCovarianceAndClipsIt) {
 TEST(MovingObstacles, ReflectAtTheBorder) {
   Scenario scenario = open_place(0.0, NoiseModel::white);
   scenario.border = square(Eigen::Vector2d::Zero(), 10.0);
-  scenario.discs = {disc_at(4.55, 0.0, 1.0, 0.3)};
+  scenario.moving = {disc_at(4.55, 0.0, 1.0, 0.3)};
   MovingObstacles obstacles{scenario};
   obstacles.advance();  // 4.65 would be 0.05 beyond 5 - 0.4: mirrored to 4.55
   EXPECT_NEAR(obstacles.next()[0].position_world.x(), 4.55, 1e-12);
@@ -97,7 +97,7 @@ TEST(MovingObstacles, ReflectAtTheBorder) {
 TEST(MovingObstacles, AreTurnedBackBySquares) {
   Scenario scenario = open_place(0.0, NoiseModel::white);
   scenario.boxes = {square({0.0, 0.0}, 2.0)};
-  scenario.discs = {disc_at(-1.45, 0.2, 1.0, 0.5)};
+  scenario.moving = {disc_at(-1.45, 0.2, 1.0, 0.5)};
   MovingObstacles obstacles{scenario};
   obstacles.advance();  // (-1.35, 0.25) is 0.05 deep in the square grown to 1.4
   EXPECT_NEAR(obstacles.next()[0].position_world.x(), -1.4, 1e-12);
@@ -109,16 +109,16 @@ TEST(MovingObstacles, StayInTheFieldAndOutOfStaticShapes) {
   Scenario scenario = open_place(2.0, NoiseModel::walk);
   scenario.border = square(Eigen::Vector2d::Zero(), 12.0);
   scenario.boxes = {square({2.0, 2.0}, 1.5)};
-  scenario.pillars = {{{-3.0, 0.0}, 0.7}};
+  scenario.discs = {{{-3.0, 0.0}, 0.7}};
   scenario.walls = {{{-1.0, -4.0}, {3.0, -2.0}}};
-  scenario.discs = {disc_at(0.0, 0.0, 1.0, 0.2), disc_at(4.0, -4.0, -0.5, 0.9)};
+  scenario.moving = {disc_at(0.0, 0.0, 1.0, 0.2), disc_at(4.0, -4.0, -0.5, 0.9)};
   MovingObstacles obstacles{scenario};
   for (int step = 0; step < 5000; ++step) {
     obstacles.advance();
     for (const ObstacleState& disc : obstacles.next()) {
       ASSERT_GE(depth_inside(disc.position_world, *scenario.border), disc.radius - 1e-9);
       ASSERT_GE(distance_to_box(disc.position_world, scenario.boxes[0]), disc.radius - 1e-9);
-      ASSERT_GE((disc.position_world - scenario.pillars[0].center).norm(), 0.7 + disc.radius - 1e-9);
+      ASSERT_GE((disc.position_world - scenario.discs[0].center).norm(), 0.7 + disc.radius - 1e-9);
       ASSERT_GE(distance_to_segment(disc.position_world, scenario.walls[0]), disc.radius - 1e-9);
     }
   }
@@ -126,7 +126,7 @@ TEST(MovingObstacles, StayInTheFieldAndOutOfStaticShapes) {
 
 TEST(MovingObstacles, FirstDiscsDrawTheSameWhateverFollows) {
   Scenario one = open_place(1.0, NoiseModel::white);
-  one.discs = {disc_at(0.0, 0.0, 0.6, 0.0)};
+  one.moving = {disc_at(0.0, 0.0, 0.6, 0.0)};
   Scenario other_level = one;
   other_level.simulation.noise.level = 2.0;
   MovingObstacles first{one};

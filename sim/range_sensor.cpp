@@ -54,7 +54,7 @@ RangeSensor::RangeSensor(const Scenario& scenario)
     : beams_{scenario.simulation.sensing.beams},
       range_{scenario.simulation.sensing.range},
       segments_{scenario.walls},
-      pillars_{scenario.pillars} {
+      discs_{scenario.discs} {
   for (const Box& box : scenario.boxes) append_sides(box, segments_);
   if (scenario.border) append_sides(*scenario.border, segments_);
 }
@@ -67,7 +67,7 @@ void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& di
   Sweep sweep{pose_world.position_world, pose_world.heading + scan.angle_min, scan.angle_increment,
               scan.ranges};
   for (const Segment& segment : segments_) cast_segment(segment, sweep);
-  for (const Pillar& pillar : pillars_) cast_disc(pillar.center, pillar.radius, sweep);
+  for (const Disc& disc : discs_) cast_disc(disc.center, disc.radius, sweep);
   for (const SeenDisc& disc : discs) cast_disc(disc.position_world, disc.radius, sweep);
 }
 

@@ -34,7 +34,7 @@ class RangeSensor {
   int beams_;
   double range_;                   // [m]
   std::vector<Segment> segments_;  // walls, sides of boxes and of the border
-  std::vector<Pillar> pillars_;
+  std::vector<Disc> discs_;
 };
 
 }  // namespace spf::sim

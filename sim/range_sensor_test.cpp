@@ -71,8 +71,8 @@ double marched(const Scenario& scenario, const std::vector<SeenDisc>& discs, con
     if (depth_inside(place, *scenario.border) < 0.0) return range;
     for (const Box& box : scenario.boxes)
       if (distance_to_box(place, box) == 0.0) return range;
-    for (const Pillar& pillar : scenario.pillars)
-      if ((place - pillar.center).norm() < pillar.radius) return range;
+    for (const Disc& disc : scenario.discs)
+      if ((place - disc.center).norm() < disc.radius) return range;
     for (const SeenDisc& disc : discs)
       if ((place - disc.position_world).norm() < disc.radius) return range;
   }
@@ -87,7 +87,7 @@ TEST(RangeSensor, AgreesWithMarchingAlongTheBeams) {
   for (int i = 0; i < 6; ++i)
     scenario.boxes.push_back(square({random.uniform(-8, 8), random.uniform(-8, 8)}, random.uniform(0.5, 2)));
   for (int i = 0; i < 6; ++i)
-    scenario.pillars.push_back({{random.uniform(-8, 8), random.uniform(-8, 8)}, random.uniform(0.2, 0.8)});
+    scenario.discs.push_back({{random.uniform(-8, 8), random.uniform(-8, 8)}, random.uniform(0.2, 0.8)});
   const std::vector<SeenDisc> discs{{{1.0, 1.0}, 0.4}, {{-3.0, 2.0}, 0.3}};
   int disagreements = 0;
   int compared = 0;

@@ -35,7 +35,7 @@ Box extent_of(const Scenario& scenario) {
     include(box.low);
     include(box.high);
   }
-  for (const Pillar& pillar : scenario.pillars) include(pillar.center);
+  for (const Disc& disc : scenario.discs) include(disc.center);
   for (const Segment& wall : scenario.walls) {
     include(wall.from);
     include(wall.to);
@@ -57,7 +57,7 @@ OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& para
   if (scenario.border) map.add_border(scenario.border->low, scenario.border->high);
   if (sensing.map == MapKnowledge::sensed) return map;
   for (const Box& box : scenario.boxes) map.add_box(box.low, box.high);
-  for (const Pillar& pillar : scenario.pillars) map.add_disc(pillar.center, pillar.radius);
+  for (const Disc& disc : scenario.discs) map.add_disc(disc.center, disc.radius);
   for (const Segment& wall : scenario.walls) add_wall(map, wall);
   return map;
 }

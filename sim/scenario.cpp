@@ -19,13 +19,19 @@ std::string entry(const char* list, std::size_t index, const char* member = "") 
 class Report {
  public:
   template <class... Parts>
-  void add(std::string where, const Parts&... parts) {
+  ScenarioProblem& add(std::string where, const Parts&... parts) {
     std::ostringstream sentence;
     (sentence << ... << parts);
-    found_.push_back({std::move(where), sentence.str()});
+    return found_.emplace_back(ScenarioProblem{std::move(where), sentence.str(), "", ""});
+  }
+  template <class... Parts>
+  void add_point(std::string where, const Eigen::Vector2d& point, const Parts&... parts) {
+    std::ostringstream value;
+    value << "(" << point.x() << ", " << point.y() << ")";
+    add(std::move(where), parts...).value = value.str();
   }
   void require_finite(const std::string& where, const Eigen::Vector2d& value) {
-    if (!value.allFinite()) add(where, "(", value.x(), ", ", value.y(), ") must be finite");
+    if (!value.allFinite()) add_point(where, value, "must be finite");
   }
   void require_radius(const std::string& where, double radius) {
     if (!(radius > 0.0 && radius <= 1000.0)) add(where, "radius ", radius, " m must lie in (0, 1000]");
@@ -48,18 +54,18 @@ void check_shapes(Report& report, const Scenario& scenario) {
   if (scenario.border) check_box(report, "border", *scenario.border);
   for (std::size_t i = 0; i < scenario.boxes.size(); ++i)
     check_box(report, entry("boxes", i), scenario.boxes[i]);
-  for (std::size_t i = 0; i < scenario.pillars.size(); ++i) {
-    report.require_finite(entry("pillars", i), scenario.pillars[i].center);
-    report.require_radius(entry("pillars", i), scenario.pillars[i].radius);
+  for (std::size_t i = 0; i < scenario.discs.size(); ++i) {
+    report.require_finite(entry("discs", i), scenario.discs[i].center);
+    report.require_radius(entry("discs", i), scenario.discs[i].radius);
   }
   for (std::size_t i = 0; i < scenario.walls.size(); ++i) {
     report.require_finite(entry("walls", i), scenario.walls[i].from);
     report.require_finite(entry("walls", i), scenario.walls[i].to);
   }
-  for (std::size_t i = 0; i < scenario.discs.size(); ++i) {
-    report.require_finite(entry("discs", i, ".position"), scenario.discs[i].position_world);
-    report.require_finite(entry("discs", i, ".velocity"), scenario.discs[i].velocity_world);
-    report.require_radius(entry("discs", i), scenario.discs[i].radius);
+  for (std::size_t i = 0; i < scenario.moving.size(); ++i) {
+    report.require_finite(entry("moving", i, ".position"), scenario.moving[i].position_world);
+    report.require_finite(entry("moving", i, ".velocity"), scenario.moving[i].velocity_world);
+    report.require_radius(entry("moving", i), scenario.moving[i].radius);
   }
   if (!scenario.crowd.empty()) report.require_radius("crowd", scenario.crowd_radius);
   for (std::size_t i = 0; i < scenario.crowd.size(); ++i) {
@@ -77,17 +83,16 @@ void check_place(Report& report, const std::string& where, const Eigen::Vector2d
   if (!place.allFinite()) return;
   const double radius = scenario.robot.radius;
   if (scenario.border && depth_inside(place, *scenario.border) < radius)
-    report.add(where, "(", place.x(), ", ", place.y(), ") must lie inside the border by the radius ", radius,
-               " m");
+    report.add_point(where, place, "must lie inside the border by the radius ", radius, " m");
   const auto require_gap = [&](const std::string& what, double distance) {
     if (distance < radius)
-      report.add(where, "is ", distance, " m from ", what, ", less than the radius ", radius, " m");
+      report.add(where, "is ", distance, " m from ", what, ", less than the radius ", radius, " m").other =
+          what;
   };
   for (std::size_t i = 0; i < scenario.boxes.size(); ++i)
     require_gap(entry("boxes", i), distance_to_box(place, scenario.boxes[i]));
-  for (std::size_t i = 0; i < scenario.pillars.size(); ++i)
-    require_gap(entry("pillars", i),
-                (place - scenario.pillars[i].center).norm() - scenario.pillars[i].radius);
+  for (std::size_t i = 0; i < scenario.discs.size(); ++i)
+    require_gap(entry("discs", i), (place - scenario.discs[i].center).norm() - scenario.discs[i].radius);
   for (std::size_t i = 0; i < scenario.walls.size(); ++i)
     require_gap(entry("walls", i), distance_to_segment(place, scenario.walls[i]));
 }
@@ -104,11 +109,13 @@ void check_robots(Report& report, const Scenario& scenario) {
     if (task.goal_heading && !std::isfinite(*task.goal_heading))
       report.add(entry("robots", i, ".goal"), "heading must be finite");
     if (!task.start.position_world.allFinite()) continue;
-    for (std::size_t d = 0; d < scenario.discs.size(); ++d) {
-      const double gap = (task.start.position_world - scenario.discs[d].position_world).norm();
-      if (gap < scenario.robot.radius + scenario.discs[d].radius)
-        report.add(entry("robots", i, ".start"), "is inside ", entry("discs", d), ": centres ", gap,
-                   " m apart");
+    for (std::size_t d = 0; d < scenario.moving.size(); ++d) {
+      const double gap = (task.start.position_world - scenario.moving[d].position_world).norm();
+      if (gap < scenario.robot.radius + scenario.moving[d].radius)
+        report
+            .add(entry("robots", i, ".start"), "is inside ", entry("moving", d), ": centres ", gap,
+                 " m apart")
+            .other = entry("moving", d);
     }
     starts.push_back(task.start.position_world);
   }
@@ -121,12 +128,18 @@ void check_robots(Report& report, const Scenario& scenario) {
       const std::size_t j = static_cast<std::size_t>(other);
       const double gap = (starts[i] - starts[j]).norm();
       if (j < i && gap < sum)
-        report.add(entry("robots", i, ".start"), "is inside ", entry("robots", j), ": centres ", gap,
-                   " m apart");
+        report
+            .add(entry("robots", i, ".start"), "is inside ", entry("robots", j), ": centres ", gap,
+                 " m apart")
+            .other = entry("robots", j);
     });
 }
 
 }  // namespace
+
+std::string to_text(const ScenarioProblem& problem) {
+  return problem.where + " " + (problem.value.empty() ? "" : problem.value + " ") + problem.what;
+}
 
 std::vector<ScenarioProblem> problems_of(const Scenario& scenario) {
   Report report;

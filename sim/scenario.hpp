@@ -23,7 +23,7 @@ struct Box {
 };
 
 /// Static disc.
-struct Pillar {
+struct Disc {
   Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< [m]
   double radius = 0.5;                               ///< [m]
 };
@@ -53,26 +53,31 @@ struct Scenario {
   int trial = 0;  ///< k of docs/protocol.md
   std::uint64_t seed = 20240501;
 
-  /// Bounds discs and robots: a centre stays inside by its radius; a robot that leaves has hit the border.
+  /// Bounds moving discs and robots: a centre stays inside by its radius; a robot that leaves has hit the
+  /// border.
   std::optional<Box> border;
   std::vector<Box> boxes;
-  std::vector<Pillar> pillars;
+  std::vector<Disc> discs;
   std::vector<Segment> walls;
-  std::vector<Segment> seams;        ///< crossing one makes the observed pose jump (PoseNoiseParameters)
-  std::vector<ObstacleState> discs;  ///< moving obstacles at t = 0, ids 0, 1, 2, ...
-  std::vector<CrowdSample> crowd;    ///< recorded people, sorted by time
-  double crowd_radius = 0.25;        ///< [m] of each person
-  double crowd_gap = kUnlimited;     ///< [s] who has no sample for longer is away meanwhile
+  std::vector<Segment> seams;         ///< crossing one makes the observed pose jump (PoseNoiseParameters)
+  std::vector<ObstacleState> moving;  ///< discs that move, at t = 0, ids 0, 1, 2, ...
+  std::vector<CrowdSample> crowd;     ///< recorded people, sorted by time
+  double crowd_radius = 0.25;         ///< [m] of each person
+  double crowd_gap = kUnlimited;      ///< [s] who has no sample for longer is away meanwhile
   std::vector<RobotTask> robots;
   RobotParameters robot;  ///< all robots of a fleet are alike
   SimulationParameters simulation;
 };
 
-/// A rule that a scenario breaks, and the entry that breaks it ("robots[3].start").
+/// A rule that a scenario breaks. Entries are named as in scenario files.
 struct ScenarioProblem {
-  std::string where;
-  std::string what;
+  std::string where;  ///< the entry that breaks it: "robots[3].start"
+  std::string what;   ///< "must be finite"
+  std::string value;  ///< of the entry, where it is a point: "(1, 2)"
+  std::string other;  ///< another entry that it is about: "discs[2]", empty = none
 };
+/// "robots[3].start (1, 2) must be finite"
+[[nodiscard]] std::string to_text(const ScenarioProblem& problem);
 
 /// Everything that makes the scenario unusable: numbers out of range or not finite, boxes inside out, robots
 /// or goals inside an obstacle, each other or beyond the border. Empty when it can run.

@@ -110,7 +110,7 @@ Scenario doomed_robot() {
   disc.position_world = {4.0, 1.0};
   disc.velocity_world = {-2.0, 0.0};
   disc.radius = 0.95;
-  scenario.discs = {disc};
+  scenario.moving = {disc};
   return scenario;
 }
 
@@ -118,7 +118,7 @@ TEST(Simulation, AContactEndsTheTrialAndIsRecorded) {
   const TrialResult result = run_recorded(doomed_robot());
   EXPECT_EQ(result.outcome, TrialOutcome::collision);
   ASSERT_EQ(result.contacts.size(), 1U);
-  EXPECT_EQ(result.contacts[0].with, ContactWith::disc);
+  EXPECT_EQ(result.contacts[0].with, ContactWith::moving);
   EXPECT_NEAR(result.contacts[0].other_speed, 2.0, 0.05);
   EXPECT_NEAR(result.contacts[0].time, result.sim_seconds, 0.0051);  // within the last tick
   EXPECT_LE(result.dynamic_clearance, 0.0);
@@ -223,7 +223,7 @@ TEST(Simulation, RecordsWhatAReplayShows) {
 TEST(RobotMap, KnowsTheStaticShapesOnlyWhenTheyAreKnown) {
   Scenario scenario = lone_robot(TrackingMode::full);
   scenario.boxes = {square({2.0, 2.0}, 1.0)};
-  scenario.pillars = {{{-2.0, -2.0}, 0.5}};
+  scenario.discs = {{{-2.0, -2.0}, 0.5}};
   scenario.walls = {{{-3.0, 5.0}, {3.0, 6.0}}};
   const OccupancyMap known = robot_map(scenario, {});
   EXPECT_NEAR(known.distance({2.0, 3.2}), 0.7, 1e-5);

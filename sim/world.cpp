@@ -17,7 +17,7 @@ long ticks_between(double plant_rate, double rate) {
 const Scenario& usable(const Scenario& scenario) {
   std::string reasons;
   for (const ScenarioProblem& problem : problems_of(scenario))
-    reasons += (reasons.empty() ? "" : "; ") + problem.where + ": " + problem.what;
+    reasons += (reasons.empty() ? "" : "; ") + to_text(problem);
   if (!reasons.empty()) throw std::invalid_argument(reasons);
   return scenario;
 }

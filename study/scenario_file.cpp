@@ -17,27 +17,29 @@
 namespace spf {
 namespace {
 
-/// The choice at a key of the document; `fallback` when it is absent or no such name (the reader reports
-/// that).
-template <class Choice>
-Choice peek(const YamlNode& root, const char* key, Choice fallback) {
-  InputProblems ignored;
-  if (const YamlNode* node = root.find(key)) read_choice({*node, key, ignored}, fallback);
-  return fallback;
-}
-
-/// The robot of the document, on which other defaults depend.
-RobotParameters peek_robot(const YamlNode& root, RobotParameters fallback) {
-  InputProblems ignored;
-  if (const YamlNode* node = root.find("robot")) read_parameters(*node, fallback, ignored);
-  return fallback;
-}
-
-SceneFamily peek_family(const YamlNode& root) {
+/// The family of a document that does not name one: by what its robots are.
+SceneFamily likely_family(const YamlNode& root) {
   const YamlNode* robots = root.find("robots");
-  const bool lists_robots = robots != nullptr && robots->kind == YamlKind::list;
-  return peek(root, "family",
-              lists_robots ? SceneFamily::explicit_scene : static_cast<SceneFamily>(sim::Family::t2));
+  return robots != nullptr && robots->kind == YamlKind::list ? kExplicitScene : SceneFamily{sim::Family::t2};
+}
+
+/// Reads every key once: what defaults depend on comes first.
+Study read_keys(const YamlNode& root, const MethodTable& methods, InputProblems& problems) {
+  std::vector<std::string> keys;  // known when the family is
+  FieldReader reader{root, "", keys, problems};
+  Study head;
+  head.family = likely_family(root);
+  head.method = MethodChoice{kDefaultMethod, methods};
+  Study::visit_head(head, reader);
+  head.robot = default_study(head.family, head.method).robot;
+  keys = keys_of(head);
+  reader.group("robot", head.robot);
+  Study study = default_study(head.family, head.method, head.robot);
+  study.seed = head.seed;
+  Study::visit_scene(study, reader);
+  Study::visit_parameters(study, reader);
+  reader.finish();
+  return study;
 }
 
 double heading_of(const RobotEntry& entry) {
@@ -49,32 +51,20 @@ double heading_of(const RobotEntry& entry) {
 
 sim::Scenario explicit_scenario(const Study& study) {
   sim::Scenario scenario;
-  scenario.family = enum_name(SceneFamily::explicit_scene);
+  scenario.family = enum_name(kExplicitScene);
   scenario.seed = study.seed;
   scenario.robot = study.robot;
   scenario.simulation = study.simulation;
   if (study.scene.border) scenario.border = sim::Box{study.scene.border->low, study.scene.border->high};
   for (const BoxEntry& box : study.scene.boxes) scenario.boxes.push_back({box.low, box.high});
-  for (const DiscEntry& disc : study.scene.discs) scenario.pillars.push_back({disc.center, disc.radius});
+  for (const DiscEntry& disc : study.scene.discs) scenario.discs.push_back({disc.center, disc.radius});
   for (const WallEntry& wall : study.scene.walls) scenario.walls.push_back({wall.from, wall.to});
   for (const WallEntry& seam : study.scene.seams) scenario.seams.push_back({seam.from, seam.to});
   for (const MovingEntry& disc : study.scene.moving)
-    scenario.discs.push_back({disc.position, disc.velocity, disc.radius});
+    scenario.moving.push_back({disc.position, disc.velocity, disc.radius});
   for (const RobotEntry& robot : study.scene.robots)
     scenario.robots.push_back({{robot.start, heading_of(robot)}, robot.goal, robot.goal_heading});
   return scenario;
-}
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
-
-/// The simulator's names of lists, in the words of the file.
-std::string in_words_of_file(std::string text) {
-  replace_all(text, "discs[", "moving[");
-  replace_all(text, "pillars[", "discs[");
-  return text;
 }
 
 std::string entry(const char* list, std::size_t index, const char* member) {
@@ -90,70 +80,37 @@ std::vector<sim::ScenarioProblem> more_problems_of(const sim::Scenario& scenario
     for (std::size_t j = 0; j < i; ++j) {
       const double gap = (scenario.robots[i].goal_world - scenario.robots[j].goal_world).norm();
       if (gap < sum)
-        found.push_back(
-            {entry("robots", i, ".goal"), "is " + to_text(gap) + " m from robots[" + std::to_string(j) +
-                                              "].goal, less than two radii, " + to_text(sum) + " m"});
+        found.push_back({entry("robots", i, ".goal"),
+                         "is " + to_text(gap) + " m from " + entry("robots", j, ".goal") +
+                             ", less than two radii, " + to_text(sum) + " m",
+                         "", entry("robots", j, ".goal")});
     }
-  for (std::size_t i = 0; i < scenario.discs.size() && scenario.border; ++i) {
-    const ObstacleState& disc = scenario.discs[i];
+  for (std::size_t i = 0; i < scenario.moving.size() && scenario.border; ++i) {
+    const ObstacleState& disc = scenario.moving[i];
     const double depth = std::min((disc.position_world - scenario.border->low).minCoeff(),
                                   (scenario.border->high - disc.position_world).minCoeff());
     if (depth < disc.radius)
-      found.push_back({entry("discs", i, ".position"),
-                       "must lie inside the border by its radius, " + to_text(disc.radius) + " m"});
+      found.push_back({entry("moving", i, ".position"),
+                       "must lie inside the border by its radius, " + to_text(disc.radius) + " m", "",
+                       "border"});
   }
   return found;
 }
 
-/// What was found in the file before its scene was looked at. Refused values have left a default behind,
-/// about which nothing more is to be said.
-class Refused {
- public:
-  explicit Refused(const InputProblems& problems) : problems_{problems} {}
-
-  [[nodiscard]] bool at(const SourcePlace& place) const {
-    for (const InputProblem& problem : problems_.kept())
-      if (problem.place.source == place.source && problem.place.line == place.line &&
-          problem.place.column == place.column && place.line > 0)
-        return true;
-    return false;
-  }
-  /// Does the sentence speak of an entry such as discs[3] that was refused, in part or whole?
-  [[nodiscard]] bool mentioned_in(const std::string& sentence) const {
-    for (const InputProblem& problem : problems_.kept()) {
-      const std::size_t end = problem.sentence.find(']');
-      if (end != std::string::npos && end < problem.sentence.find(' ') &&
-          sentence.find(problem.sentence.substr(0, end + 1)) != std::string::npos)
-        return true;
-    }
-    return false;
-  }
-
- private:
-  InputProblems problems_;
-};
-
-/// "robots[0].start = [1, 2] must lie ..."; the simulator's sentences may begin with the value as (1, 2).
-std::string scene_sentence(const YamlNode& node, const std::string& where, std::string what) {
-  const bool has_value = node.kind == YamlKind::scalar || node.kind == YamlKind::list;
-  const std::size_t end = what.find(") ");
-  if (has_value && what.rfind("(", 0) == 0 && end != std::string::npos) what.erase(0, end + 2);
-  return where + (has_value ? " = " + shown(node) : "") + " " + what;
-}
-
-/// Checks a scene that stands in the file.
+/// Checks a scene that stands in the file. What was refused has left a default behind, about which nothing
+/// more is to be said.
 void check_explicit(const YamlNode& root, const Study& study, InputProblems& problems) {
-  const Refused refused{problems};
+  const InputProblems refused = problems;
   const sim::Scenario scenario = explicit_scenario(study);
   std::vector<sim::ScenarioProblem> found = sim::problems_of(scenario);
   for (sim::ScenarioProblem& problem : more_problems_of(scenario)) found.push_back(std::move(problem));
   for (const sim::ScenarioProblem& problem : found) {
-    const std::string where = in_words_of_file(problem.where);
-    const std::string what = in_words_of_file(problem.what);
-    const YamlNode& node = nearest_node(root, where);
-    const bool unset = what.find("nan") != std::string::npos;
-    if (unset || refused.at(node.place) || refused.mentioned_in(what)) continue;
-    problems.add(node.place, scene_sentence(node, where, what));
+    if (refused.refuses(problem.where) || (!problem.other.empty() && refused.refuses(problem.other)))
+      continue;
+    const YamlNode& node = nearest_node(root, problem.where);
+    const bool has_value = node.kind == YamlKind::scalar || node.kind == YamlKind::list;
+    problems.add(node.place, problem.where + (has_value ? " = " + shown(node) : "") + " " + problem.what,
+                 problem.where);
   }
 }
 
@@ -172,19 +129,20 @@ void check_drawn(const YamlNode& root, const Study& study, InputProblems& proble
     if (found.empty()) return;
     const std::string others =
         found.size() == 1 ? "" : " (and " + std::to_string(found.size() - 1) + " more)";
-    refuse(found.front().where + " " + found.front().what + others);
+    refuse(to_text(found.front()) + others);
   } catch (const std::exception& error) {
     refuse(error.what());
   }
 }
 
 bool has_recording(const Study& study) {
-  return study.family == static_cast<SceneFamily>(static_cast<int>(sim::Family::ped));
+  return study.family.drawn == sim::Family::ped;
 }
 
 /// Reads the recording that the study names. A path in the scenario file begins at that file, any other (of
 /// --set, of a campaign) at the working directory.
-void read_recording(const YamlNode& root, const std::string& file, Study& study, InputProblems& problems) {
+void read_recording(const YamlNode& root, Study& study, InputProblems& problems) {
+  const std::string& file = root.place.source;
   const YamlNode* node = root.find("crowd");
   if (node == nullptr || study.crowd.empty()) {
     if (node == nullptr || node->kind == YamlKind::scalar)
@@ -205,18 +163,13 @@ Study read_document(YamlNode root, const std::vector<Setting>& settings, const M
                     InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
   for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
-  const SceneFamily family = peek_family(root);
-  const MethodChoice method = peek(root, "method", MethodChoice{kDefaultMethod, methods});
-  Study study = default_study(family, method, peek_robot(root, default_study(family, method).robot));
-  const std::string file = root.place.source;
-  read_parameters(root, study, problems);
-  if (root.kind == YamlKind::map && has_recording(study)) read_recording(root, file, study, problems);
-  if (root.kind == YamlKind::map) {
-    if (study.family == SceneFamily::explicit_scene)
-      check_explicit(root, study, problems);
-    else if (problems.empty())
-      check_drawn(root, study, problems);
-  }
+  if (!require_map(root, problems)) problems.throw_if_any();
+  Study study = read_keys(root, methods, problems);
+  if (has_recording(study)) read_recording(root, study, problems);
+  if (!study.family.drawn)
+    check_explicit(root, study, problems);
+  else if (problems.empty())
+    check_drawn(root, study, problems);
   problems.throw_if_any();
   return study;
 }
@@ -225,8 +178,7 @@ Study read_document(YamlNode root, const std::vector<Setting>& settings, const M
 
 Study default_study(SceneFamily family, const MethodChoice& method) {
   RobotParameters robot;
-  if (family != SceneFamily::explicit_scene)
-    robot = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family))).robot;
+  if (family.drawn) robot = sim::family_setup(*family.drawn).robot;
   return default_study(family, method, robot);
 }
 
@@ -236,8 +188,8 @@ Study default_study(SceneFamily family, const MethodChoice& method, const RobotP
   study.method = method;
   study.agent = with_method(defaults_for(robot), method.method());
   RobotParameters sized_for;  // the robot that the family's numbers are for
-  if (family != SceneFamily::explicit_scene) {
-    const sim::FamilySetup setup = sim::family_setup(static_cast<sim::Family>(static_cast<int>(family)));
+  if (family.drawn) {
+    const sim::FamilySetup setup = sim::family_setup(*family.drawn);
     study.layout = setup.layout;
     study.simulation = setup.simulation;
     sized_for = setup.robot;
@@ -265,10 +217,10 @@ std::string to_yaml_text(const Study& study, bool explains) {
 }
 
 sim::Scenario make_trial(const Study& study, int trial) {
-  if (study.family != SceneFamily::explicit_scene) {
-    const sim::Family family = static_cast<sim::Family>(static_cast<int>(study.family));
-    return sim::make_scenario({family, study.layout, study.robot, study.simulation, study.recording},
-                              study.seed, trial);
+  if (study.family.drawn) {
+    return sim::make_scenario(
+        {*study.family.drawn, study.layout, study.robot, study.simulation, study.recording}, study.seed,
+        trial);
   }
   sim::Scenario scenario = explicit_scenario(study);
   scenario.trial = trial;

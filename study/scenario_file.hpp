@@ -24,14 +24,20 @@
 
 namespace spf {
 
-/// Where a scene comes from: one of sim::Family, or written out in the file.
-enum class SceneFamily : int { explicit_scene = -1 };
+/// Where a scene comes from: drawn by a family of the simulator, or (none) written out in the file.
+struct SceneFamily {
+  std::optional<sim::Family> drawn;
+
+  friend constexpr bool operator==(const SceneFamily& a, const SceneFamily& b) { return a.drawn == b.drawn; }
+  friend constexpr bool operator!=(const SceneFamily& a, const SceneFamily& b) { return !(a == b); }
+};
+inline constexpr SceneFamily kExplicitScene{};
+
 template <std::size_t... i>
 [[nodiscard]] constexpr auto scene_family_names(std::index_sequence<i...>) {
   constexpr auto& drawn = EnumNames<sim::Family>::values;
   return std::array<std::pair<SceneFamily, const char*>, sizeof...(i) + 1>{
-      {{static_cast<SceneFamily>(drawn[i].first), drawn[i].second}...,
-       {SceneFamily::explicit_scene, "explicit"}}};
+      {{SceneFamily{drawn[i].first}, drawn[i].second}..., {kExplicitScene, "explicit"}}};
 }
 template <>
 struct EnumNames<SceneFamily> {
@@ -139,7 +145,7 @@ struct ExplicitScene {
 
 /// A scenario file with all its defaults filled in.
 struct Study {
-  SceneFamily family = SceneFamily::explicit_scene;
+  SceneFamily family;
   std::uint64_t seed = sim::kDefaultSeed;
   MethodChoice method;
   sim::LayoutParameters layout;  ///< of a drawn family
@@ -150,8 +156,22 @@ struct Study {
   sim::SimulationParameters simulation;
   AgentParameters agent;  ///< without its robot: that is `robot`
 
+  /// All keys, in the order in which they are written.
   template <class Self, class Visitor>
-  static void visit_fields(Self& self, Visitor&& visit);
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit_head(self, visit);
+    visit_scene(self, visit);
+    visit.group("robot", self.robot);
+    visit_parameters(self, visit);
+  }
+  /// Reading goes in another order, since defaults depend on what stands in the same file: the head names
+  /// family and method, these have a robot, all three have defaults for the rest.
+  template <class Self, class Visitor>
+  static void visit_head(Self& self, Visitor&& visit);
+  template <class Self, class Visitor>
+  static void visit_scene(Self& self, Visitor&& visit);
+  template <class Self, class Visitor>
+  static void visit_parameters(Self& self, Visitor&& visit);
 };
 
 /// The defaults of a family and a method.
@@ -200,25 +220,28 @@ struct Setting {
 // ------------------------------------------------------------------------------
 
 template <class Self, class Visitor>
-void Study::visit_fields(Self& self, Visitor&& visit) {
+void Study::visit_head(Self& self, Visitor&& visit) {
   visit.required("family");
   visit("family", self.family,
         "family of scenes (docs/protocol.md), or explicit: the scene stands in the file");
   visit("seed", self.seed, "1", Range{0.0, 18446744073709551615.0}, "seed of everything random");
   visit("method", self.method, "how robots plan and track: a set of agent parameters");
-  if (self.family == SceneFamily::explicit_scene) {
-    ExplicitScene::visit_fields(self.scene, visit);
-  } else {
-    visit("robots", self.layout.robots, "1", Range{1, 10000}, "number of robots");
-    if (self.family == static_cast<SceneFamily>(static_cast<int>(sim::Family::ped)))
-      visit(
-          "crowd", self.crowd,
+}
+
+template <class Self, class Visitor>
+void Study::visit_scene(Self& self, Visitor&& visit) {
+  if (!self.family.drawn) return ExplicitScene::visit_fields(self.scene, visit);
+  visit("robots", self.layout.robots, "1", Range{1, 10000}, "number of robots");
+  if (self.family.drawn == sim::Family::ped)
+    visit("crowd", self.crowd,
           "recorded people: a CSV file (t_s, agent_id, x_m, y_m), beside the scenario file, or with --set in "
           "the working directory (family: ped)");
-    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
-    visit.group("layout", layout);
-  }
-  visit.group("robot", self.robot);
+  PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
+  visit.group("layout", layout);
+}
+
+template <class Self, class Visitor>
+void Study::visit_parameters(Self& self, Visitor&& visit) {
   sim::SimulationParameters::visit_fields(self.simulation, visit);
   PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{self.agent, {"robot"}};
   visit.group("agent", agent);

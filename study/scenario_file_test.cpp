@@ -35,7 +35,7 @@ const std::filesystem::path kScenarios = std::filesystem::path{source_dir()} / "
 
 TEST(ScenarioFile, GivesTheFamilyOfTheProtocol) {
   const Study study = study_from_text("family: t2_hard\nnoise: {level: 1, model: walk}\n", "file.yaml");
-  EXPECT_EQ(study.family, static_cast<SceneFamily>(sim::Family::t2_hard));
+  EXPECT_EQ(study.family, SceneFamily{sim::Family::t2_hard});
   EXPECT_EQ(study.method.name(), "space_time");
   EXPECT_EQ(study.simulation.noise.level, 1.0);
   EXPECT_EQ(study.simulation.noise.speed_limit, 1.2);  // of the family, not of the struct
@@ -50,9 +50,9 @@ TEST(ScenarioFile, DrawsTheSameTrialsAsTheGenerator) {
   const Study study = study_from_text("family: t2\n", "file.yaml");
   const sim::Scenario expected = sim::make_scenario(sim::family_setup(sim::Family::t2), sim::kDefaultSeed, 7);
   const sim::Scenario trial = make_trial(study, 7);
-  ASSERT_EQ(trial.discs.size(), expected.discs.size());
-  for (std::size_t i = 0; i < trial.discs.size(); ++i)
-    EXPECT_EQ(trial.discs[i].position_world, expected.discs[i].position_world);
+  ASSERT_EQ(trial.moving.size(), expected.moving.size());
+  for (std::size_t i = 0; i < trial.moving.size(); ++i)
+    EXPECT_EQ(trial.moving[i].position_world, expected.moving[i].position_world);
 }
 
 TEST(ScenarioFile, SizesAFamily) {
@@ -116,11 +116,11 @@ TEST(ScenarioFile, DescribesASceneByHand) {
   ASSERT_TRUE(scenario.border.has_value());
   EXPECT_EQ(scenario.border->high.x(), 5.0);
   ASSERT_EQ(scenario.boxes.size(), 1u);
-  ASSERT_EQ(scenario.pillars.size(), 1u);
-  EXPECT_EQ(scenario.pillars[0].radius, 0.4);
-  ASSERT_EQ(scenario.walls.size(), 1u);
   ASSERT_EQ(scenario.discs.size(), 1u);
-  EXPECT_EQ(scenario.discs[0].velocity_world, (Eigen::Vector2d{0.0, 0.5}));
+  EXPECT_EQ(scenario.discs[0].radius, 0.4);
+  ASSERT_EQ(scenario.walls.size(), 1u);
+  ASSERT_EQ(scenario.moving.size(), 1u);
+  EXPECT_EQ(scenario.moving[0].velocity_world, (Eigen::Vector2d{0.0, 0.5}));
 }
 
 struct BadScenario {
@@ -226,7 +226,7 @@ TEST(ScenarioFile, LoadsHundredsOfStaticDiscs) {
   for (int i = 0; i < 30; ++i)
     for (int j = 0; j < 30; ++j)
       text += "  - {center: [" + std::to_string(i) + ", " + std::to_string(j + 1) + "], radius: 0.075}\n";
-  EXPECT_EQ(make_trial(study_from_text(text, "file.yaml"), 0).pillars.size(), 900u);
+  EXPECT_EQ(make_trial(study_from_text(text, "file.yaml"), 0).discs.size(), 900u);
 }
 
 TEST(ScenarioFiles, AreAllGood) {
@@ -245,7 +245,7 @@ TEST(ScenarioFiles, FamiliesAreNamedAfterThemselves) {
   for (const auto& [family, name] : EnumNames<sim::Family>::values) {
     SCOPED_TRACE(name);
     const Study study = read_study((kScenarios / (std::string{name} + ".yaml")).string());
-    EXPECT_EQ(study.family, static_cast<SceneFamily>(family));
+    EXPECT_EQ(study.family, SceneFamily{family});
   }
 }
 
@@ -255,7 +255,7 @@ TEST(ScenarioFiles, CrossingExplainsEveryKey) {
   InputProblems problems;
   const YamlNode root = parse_yaml(text, "crossing.yaml", problems);
   ASSERT_TRUE(problems.empty()) << problems.to_text();
-  Study study = default_study(SceneFamily::explicit_scene, Study{}.method);
+  Study study = default_study(kExplicitScene, Study{}.method);
   for (std::string key : keys_of(study)) {
     if (key == "border" || key.find("heading") != std::string::npos)
       continue;  // absent has a meaning of its own

@@ -13,7 +13,7 @@ namespace spf_empc_ros {
 namespace {
 
 using spf::sim::Box;
-using spf::sim::Pillar;
+using spf::sim::Disc;
 using spf::sim::RobotTruth;
 using spf::sim::Scenario;
 using spf::sim::Segment;
@@ -64,9 +64,9 @@ void paint_shapes(const Scenario& scenario, CellPainter& painter, double resolut
   for (const Box& box : scenario.boxes)
     painter.paint(box.low, box.high, 0.0,
                   [&](const Eigen::Vector2d& place) { return spf::sim::distance_to_box(place, box); });
-  for (const Pillar& pillar : scenario.pillars)
-    painter.paint(pillar.center, pillar.center, pillar.radius,
-                  [&](const Eigen::Vector2d& place) { return (place - pillar.center).norm(); });
+  for (const Disc& disc : scenario.discs)
+    painter.paint(disc.center, disc.center, disc.radius,
+                  [&](const Eigen::Vector2d& place) { return (place - disc.center).norm(); });
   // A thin wall covers no centre: its cells are those that it may cross.
   for (const Segment& wall : scenario.walls)
     painter.paint(wall.from.cwiseMin(wall.to), wall.from.cwiseMax(wall.to), resolution * std::sqrt(0.5),
@@ -129,8 +129,8 @@ void add_place(const Scenario& scenario, WorldMarkers& markers) {
     marker.color = color(0.45F, 0.47F, 0.5F, 0.8F);
   }
   id = 0;
-  for (const Pillar& pillar : scenario.pillars)
-    markers.disc("pillar", id++, pillar.center, pillar.radius, kHeight, color(0.45F, 0.47F, 0.5F, 0.8F));
+  for (const Disc& disc : scenario.discs)
+    markers.disc("pillar", id++, disc.center, disc.radius, kHeight, color(0.45F, 0.47F, 0.5F, 0.8F));
   id = 0;
   for (const Segment& wall : scenario.walls) markers.line("wall", id++, {wall.from, wall.to});
   if (!scenario.border) return;

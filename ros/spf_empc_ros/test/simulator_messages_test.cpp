@@ -21,7 +21,7 @@ Scenario place_with_shapes() {
   Scenario scenario;
   scenario.border = spf::sim::Box{{-4.0, -3.0}, {6.0, 3.0}};
   scenario.boxes = {{{0.02, 0.01}, {1.03, 0.98}}};
-  scenario.pillars = {{{-2.0, 1.0}, 0.4}};
+  scenario.discs = {{{-2.0, 1.0}, 0.4}};
   scenario.walls = {{{2.0, -2.0}, {5.0, -1.0}}};
   spf::sim::RobotTask task;
   task.start = {{-3.0, -2.0}, 0.4};
@@ -60,7 +60,7 @@ TEST(MapMessage, GivesARobotTheDistancesOfTheTruth) {
        {Eigen::Vector2d{-0.5, 0.5}, {1.6, 0.5}, {-2.0, 0.0}, {-3.5, -2.0}, {3.5, -0.9}, {0.5, 1.9}}) {
     double truth = std::min({spf::sim::depth_inside(place, *scenario.border),
                              spf::sim::distance_to_box(place, scenario.boxes[0]),
-                             (place - scenario.pillars[0].center).norm() - scenario.pillars[0].radius,
+                             (place - scenario.discs[0].center).norm() - scenario.discs[0].radius,
                              spf::sim::distance_to_segment(place, scenario.walls[0])});
     truth = std::min(truth, map->max_distance());
     // A cell's corner stands out by at most its half diagonal, a wall's cells by one more.
@@ -159,7 +159,7 @@ TEST(OutcomeMessage, TellsHowATrialStandsAndEnds) {
   EXPECT_EQ(outcome_message(result, true, kStamp).outcome, Message::SUCCESS);
   spf::sim::Contact contact;
   contact.robot = 1;
-  contact.with = spf::sim::ContactWith::disc;
+  contact.with = spf::sim::ContactWith::moving;
   contact.other = 2;
   contact.time = 3.25;
   result.contacts = {contact};
