@@ -85,17 +85,17 @@ int successes(const GoldenRow& row) {
   return static_cast<int>(std::count(row.outcomes.begin(), row.outcomes.end(), 's'));
 }
 
-/// Where sines differ in their last bit, a trial is another draw of the same experiment from the first near
-/// miss on. Of n trials 0.4 n (at least 2) may then change sides, and the mean time ratio by a quarter: what
-/// was seen with the same C library's other sines (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4) is below
-/// half of that.
+/// Where sines differ in their last bit, a trial is another draw of the same experiment from some near miss
+/// on. Of n trials 0.2 n (at least one) may then change sides, and the mean time ratio by a tenth. With the
+/// other sines of the same C library (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4) 42 of 56 digests
+/// change, 6 of 312 outcomes, one success of a row at most, and 3 % of a time ratio.
 bool alike(const GoldenRow& before, const GoldenRow& after) {
   if (before.outcomes.size() != after.outcomes.size()) return false;
-  const int tolerance = std::max(2, static_cast<int>(0.4 * static_cast<double>(before.outcomes.size())));
+  const int tolerance = std::max(1, static_cast<int>(before.outcomes.size()) / 5);
   if (std::abs(successes(before) - successes(after)) > tolerance) return false;
   if (before.time_ratio == "-" || after.time_ratio == "-") return true;
   const double ratio = std::stod(after.time_ratio) / std::stod(before.time_ratio);
-  return ratio > 0.8 && ratio < 1.25;
+  return ratio > 0.9 && ratio < 1.1;
 }
 
 /// Why a row is not as recorded, empty when it is.
@@ -137,6 +137,10 @@ struct GoldenScenes {
   int trials;
   std::vector<Setting> settings;
 };
+
+void PrintTo(const GoldenScenes& scenes, std::ostream* out) {
+  *out << scenes.family;
+}
 
 class GoldenSlow : public testing::TestWithParam<GoldenScenes> {
  protected:
@@ -208,8 +212,8 @@ TEST(Golden, OnTheSamePlatformEveryBitCounts) {
 TEST(Golden, ElsewhereOutcomesAndTimesCountWithinTheirTolerance) {
   const Golden golden = one_row("sssssssscc", "1.0500");
   EXPECT_EQ(difference(golden, {"t2", "orca", "ccssssssco", "1.0900", "abd"}, "there"), "");
-  EXPECT_NE(difference(golden, {"t2", "orca", "cccccssscc", "1.0500", "abd"}, "there"), "");
-  EXPECT_NE(difference(golden, {"t2", "orca", "sssssssscc", "1.4000", "abd"}, "there"), "");
+  EXPECT_NE(difference(golden, {"t2", "orca", "ccccsssssc", "1.0500", "abd"}, "there"), "");
+  EXPECT_NE(difference(golden, {"t2", "orca", "sssssssscc", "1.1600", "abd"}, "there"), "");
   EXPECT_NE(difference(golden, {"t2", "orca", "ssssssssc", "1.0500", "abd"}, "there"), "");
 }
 
