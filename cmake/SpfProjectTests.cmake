@@ -7,7 +7,7 @@ endif()
 # Exit status 77 means that a tool is not installed; `script/test` installs them all.
 function(spf_project_test NAME)
   add_test(NAME ${NAME} COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-  set_tests_properties(${NAME} PROPERTIES LABELS project TIMEOUT 900 SKIP_RETURN_CODE 77)
+  set_tests_properties(${NAME} PROPERTIES LABELS project TIMEOUT 900 COST 20 SKIP_RETURN_CODE 77)
 endfunction()
 
 find_package(Python3 COMPONENTS Interpreter)

@@ -2,12 +2,13 @@
 # One room of the house = one static library spf_NAME (alias spf::NAME) from the folder's *.cpp, and one
 # test program spf_NAME_tests from its *_test.cpp. TEST_DEPENDS are for the tests alone.
 # STANDARD is the C++ standard of its sources (default: 17), HEADERS that of its headers where users need less.
+# TOGETHER names suites whose tests run in one process, since they share something costly.
 # Every test carries the room's name as label, and by the name of its suite two more: `slow` for ...Slow (left out under
 # sanitizers) and `threads` for ...Threads (run under the thread sanitizer, built there by target spf_threads_tests).
 add_custom_target(spf_threads_tests)
 
 function(spf_room NAME)
-  cmake_parse_arguments(ROOM "" "STANDARD;HEADERS" "DEPENDS;TEST_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "STANDARD;HEADERS" "DEPENDS;TEST_DEPENDS;TOGETHER" ${ARGN})
   if(NOT ROOM_STANDARD)
     set(ROOM_STANDARD 17)
   endif()
@@ -53,7 +54,15 @@ function(spf_room NAME)
     spf_precompile(${target}_tests spf_headers_tests)
     target_compile_features(${target}_tests PRIVATE cxx_std_20)
     target_link_libraries(${target}_tests PRIVATE ${target} ${ROOM_TEST_DEPENDS} GTest::gtest GTest::gmock GTest::gtest_main)
-    gtest_discover_tests(${target}_tests DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES PROPERTIES LABELS ${NAME} TIMEOUT 900)
+    set(together "")
+    foreach(suite IN LISTS ROOM_TOGETHER)
+      add_test(NAME ${suite} COMMAND ${target}_tests --gtest_filter=${suite}.*)
+      set_tests_properties(${suite} PROPERTIES LABELS ${NAME} TIMEOUT 900 COST 100)
+      list(APPEND together "${suite}.*")
+    endforeach()
+    list(JOIN together ":" together)
+    gtest_discover_tests(${target}_tests DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES TEST_FILTER "-${together}"
+      PROPERTIES LABELS ${NAME} TIMEOUT 900)
     spf_label_by_suite(${NAME} ${target}_tests)
     if(SPF_SANITIZE STREQUAL "thread")
       add_dependencies(spf_threads_tests ${target}_tests)
@@ -81,6 +90,9 @@ foreach(test IN LISTS @TEST_TARGET@_TESTS)
   if(test MATCHES "(Slow|Threads)(/[0-9]+)?\\.")
     string(TOLOWER "${CMAKE_MATCH_1}" label)
     set_tests_properties("${test}" PROPERTIES LABELS "@NAME@;${label}")
+    if(label STREQUAL "slow")
+      set_tests_properties("${test}" PROPERTIES COST 20)  # what takes long begins early
+    endif()
   endif()
 endforeach()
 ]])
