@@ -9,13 +9,15 @@ namespace {
 
 RobotFile read_document(const YamlNode& root, const MethodTable& methods, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
-  MethodChoice method{kDefaultMethod, methods};
-  RobotParameters robot;
-  InputProblems ignored;  // the whole is read again below
-  if (const YamlNode* node = root.find("method")) read_choice({*node, "method", ignored}, method);
-  if (const YamlNode* node = root.find("robot")) read_parameters(*node, robot, ignored);
-  RobotFile file = default_robot_file(method, robot);
-  read_parameters(root, file, problems);
+  if (!require_map(root, problems)) problems.throw_if_any();
+  RobotFile head;
+  head.method = MethodChoice{kDefaultMethod, methods};
+  const std::vector<std::string> keys = keys_of(head);
+  FieldReader reader{root, "", keys, problems};
+  RobotFile::visit_head(head, reader);
+  RobotFile file = default_robot_file(head.method, head.robot);
+  RobotFile::visit_parameters(file, reader);
+  reader.finish();
   problems.throw_if_any();
   return file;
 }

@@ -21,8 +21,17 @@ struct RobotFile {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
+    visit_head(self, visit);
+    visit_parameters(self, visit);
+  }
+  /// What the defaults of the rest depend on.
+  template <class Self, class Visitor>
+  static void visit_head(Self& self, Visitor&& visit) {
     visit("method", self.method, "how the robot plans and tracks: a set of agent parameters");
     visit.group("robot", self.robot);
+  }
+  template <class Self, class Visitor>
+  static void visit_parameters(Self& self, Visitor&& visit) {
     PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{self.agent, {"robot"}};
     visit.group("agent", agent);
     visit.group("host", self.host);

@@ -38,16 +38,6 @@ std::string markdown_cell(const std::string& cell) {
   return safe;
 }
 
-std::string csv_cell(const std::string& cell) {
-  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
-  std::string quoted = "\"";
-  for (const char character : cell) {
-    if (character == '"') quoted += '"';
-    quoted += character;
-  }
-  return quoted + '"';
-}
-
 Cells headers(const std::vector<TableColumn>& columns) {
   Cells names;
   for (const TableColumn& column : columns) names.push_back(column.header);
@@ -121,15 +111,6 @@ std::string Table::to_markdown() const {
     }
     text += "|\n";
     if (row == 0) text += rule + "|\n";
-  }
-  return text;
-}
-
-std::string Table::to_csv() const {
-  std::string text;
-  for (const Cells& line : all_lines(columns_, rows_, csv_cell)) {
-    for (std::size_t i = 0; i < line.size(); ++i) text += (i == 0 ? "" : ",") + line[i];
-    text += '\n';
   }
   return text;
 }

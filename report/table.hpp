@@ -1,4 +1,4 @@
-// A table as text for the terminal, Markdown for documents, or CSV for other programs.
+// A table as text for the terminal, or Markdown for documents.
 #pragma once
 
 #include <string>
@@ -26,8 +26,6 @@ class Table {
   [[nodiscard]] std::string to_text() const;
   /// GitHub's pipe table; pipes and line breaks inside cells are escaped.
   [[nodiscard]] std::string to_markdown() const;
-  /// RFC 4180 with "\n" line ends.
-  [[nodiscard]] std::string to_csv() const;
 
   [[nodiscard]] std::size_t row_count() const { return rows_.size(); }
 

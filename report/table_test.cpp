@@ -37,12 +37,6 @@ TEST(Table, MarkdownEscapesPipesAndMarksAlignment) {
             "| ES2*, \"quoted\" \\| piped |      2 |      \xC2\xB1 1 |\n");
 }
 
-TEST(Table, CsvQuotesWhatNeedsIt) {
-  Table table{{{"a"}, {"b"}}};
-  table.add_row({"1,5", "say \"hi\"\nthere"});
-  EXPECT_EQ(table.to_csv(), "a,b\n\"1,5\",\"say \"\"hi\"\"\nthere\"\n");
-}
-
 TEST(Table, RefusesRowsOfAnotherLength) {
   Table table = sample();
   EXPECT_THROW(table.add_row({"one"}), std::invalid_argument);

@@ -336,12 +336,6 @@ FamilySetup family_setup(Family family) {
   return setup;
 }
 
-std::optional<Family> family_of(const std::string& name) {
-  for (const auto& [family, known] : EnumNames<Family>::values)
-    if (name == known) return family;
-  return std::nullopt;
-}
-
 Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) {
   const FamilySetup checked = validated(setup);
   const std::uint64_t trial_seed = mix(seed, static_cast<std::uint64_t>(trial));

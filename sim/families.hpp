@@ -5,8 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "sim/crowd_recording.hpp"
@@ -114,7 +112,6 @@ inline constexpr std::uint64_t kDefaultSeed = 20240501;
 
 /// The protocol's numbers for a family (docs/protocol.md, Scenes).
 [[nodiscard]] FamilySetup family_setup(Family family);
-[[nodiscard]] std::optional<Family> family_of(const std::string& name);
 
 /// Draws the scene of one trial. Throws std::invalid_argument when parameters are out of range or the crowd
 /// of ped is missing, and std::runtime_error when a thousand attempts found no scene (too much for the place)
