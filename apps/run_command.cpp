@@ -54,6 +54,7 @@ class Run {
   int once() {
     TrialOptions trial;
     trial.record = store_->folder() != nullptr;
+    trial.threads = thread_count(options_.jobs);
     trial.clock = steady_seconds;
     trial.progress = [this](double time) {
       const double elapsed = steady_seconds() - began_;
@@ -181,7 +182,9 @@ Verb add_run(CLI::App& program, const MethodTable& methods) {
   app->add_option("--first", options->first, "number of the first trial (default 0)")
       ->type_name("K")
       ->check(CLI::Range(0, 1'000'000'000));
-  app->add_option("--jobs", options->jobs, "trials at the same time (default 1, 0 = one per processor)")
+  app->add_option("--jobs", options->jobs,
+                  "threads: for the trials, and where there are fewer, for the robots of each (default 1, 0 "
+                  "= one per processor)")
       ->type_name("J")
       ->check(CLI::Range(0, 1024));
   options->scenario.add_to(*app);
