@@ -136,6 +136,7 @@ class Run {
       facts.finished = static_cast<int>(records.size());
       facts.jobs = thread_count(options_.jobs);
       facts.wall_time = steady_seconds() - began_;
+      facts.peak_memory = peak_memory();
       folder->write("scenario.yaml", resolved_scenario(cell().study));
       folder->write("summary.csv", csv_header() + to_csv_line(row));
       folder->write("summary.jsonl", to_json_line(row) + "\n");
@@ -147,7 +148,7 @@ class Run {
       return;
     }
     if (!options_.json.empty()) write_file_atomically(options_.json, to_json_line(row) + "\n");
-    std::cout << summary_text(cell().study, records);
+    std::cout << summary_text(cell().study, records, peak_memory() - memory_before_);
     for (const std::string& page : pages_) std::cout << "replay: " << page << "\n";
     if (store_->folder() != nullptr) std::cout << "results: " << store_->folder()->path().string() << "\n";
   }
@@ -157,6 +158,7 @@ class Run {
   ProgressLine progress_;
   std::optional<TrialStore> store_;
   double began_ = steady_seconds();
+  double memory_before_ = peak_memory();
   std::vector<std::string> pages_;
 };
 
