@@ -54,6 +54,7 @@ class Run {
   int once() {
     TrialOptions trial;
     trial.record = store_->folder() != nullptr;
+    trial.threads = thread_count(options_.jobs);
     trial.clock = steady_seconds;
     trial.progress = [this](double time) {
       const double elapsed = steady_seconds() - began_;
@@ -135,6 +136,7 @@ class Run {
       facts.finished = static_cast<int>(records.size());
       facts.jobs = thread_count(options_.jobs);
       facts.wall_time = steady_seconds() - began_;
+      facts.peak_memory = peak_memory();
       folder->write("scenario.yaml", resolved_scenario(cell().study));
       folder->write("summary.csv", csv_header() + to_csv_line(row));
       folder->write("summary.jsonl", to_json_line(row) + "\n");
@@ -146,7 +148,7 @@ class Run {
       return;
     }
     if (!options_.json.empty()) write_file_atomically(options_.json, to_json_line(row) + "\n");
-    std::cout << summary_text(cell().study, records);
+    std::cout << summary_text(cell().study, records, peak_memory() - memory_before_);
     for (const std::string& page : pages_) std::cout << "replay: " << page << "\n";
     if (store_->folder() != nullptr) std::cout << "results: " << store_->folder()->path().string() << "\n";
   }
@@ -156,6 +158,7 @@ class Run {
   ProgressLine progress_;
   std::optional<TrialStore> store_;
   double began_ = steady_seconds();
+  double memory_before_ = peak_memory();
   std::vector<std::string> pages_;
 };
 
@@ -181,7 +184,9 @@ Verb add_run(CLI::App& program, const MethodTable& methods) {
   app->add_option("--first", options->first, "number of the first trial (default 0)")
       ->type_name("K")
       ->check(CLI::Range(0, 1'000'000'000));
-  app->add_option("--jobs", options->jobs, "trials at the same time (default 1, 0 = one per processor)")
+  app->add_option("--jobs", options->jobs,
+                  "threads: for the trials, and where there are fewer, for the robots of each (default 1, 0 "
+                  "= one per processor)")
       ->type_name("J")
       ->check(CLI::Range(0, 1024));
   options->scenario.add_to(*app);

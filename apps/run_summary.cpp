@@ -1,5 +1,7 @@
 #include "apps/run_summary.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -66,7 +68,13 @@ std::string today() {
   return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
 }
 
-std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials) {
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials, double memory) {
   const ResultRow row = result_row(trials);
   Table table{{{"measure", Alignment::left}, {"value", Alignment::left}}};
   const auto add = [&table](const char* name, const std::string& value) { table.add_row({name, value}); };
@@ -107,6 +115,12 @@ std::string summary_text(const Study& study, const std::vector<TrialRecord>& tri
   add("control tick",
       "median " + fixed(row.control_us_median, 1) + " us, p99 " + fixed(row.control_us_p99, 1) + " us");
   add("simulated", fixed(row.sim_seconds, 1) + " s in " + fixed(row.wall_seconds, 2) + " s of computing");
+  const std::string megabytes = fixed(1e-6 * memory, 0) + " MB";
+  if (single && row.robots > 0)
+    add("memory",
+        megabytes + ", " + fixed(1e-3 * memory / row.robots, 0) + " kB a robot with its share of the map");
+  else
+    add("memory", megabytes);
   return table.to_text() + failures_text(trials);
 }
 
@@ -125,7 +139,8 @@ std::string run_json(const Study& study, const RunFacts& facts) {
                                     {"finished", facts.finished},
                                     {"jobs", facts.jobs},
                                     {"processors", processor_count()},
-                                    {"wall_seconds", facts.wall_time}};
+                                    {"wall_seconds", facts.wall_time},
+                                    {"peak_memory_mb", 1e-6 * facts.peak_memory}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

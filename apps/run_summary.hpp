@@ -10,8 +10,13 @@
 
 namespace spf {
 
+/// Most memory that the program has held so far [byte].
+[[nodiscard]] double peak_memory();
+
 /// The table on stdout: outcome, times, distances, computing, and the failed trials with their reasons.
-[[nodiscard]] std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials);
+/// `memory` [byte] is what all of it took; of a single trial it is told by robot, too.
+[[nodiscard]] std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials,
+                                       double memory);
 
 struct RunFacts {
   std::vector<std::string> command;  ///< words of the command line
@@ -19,7 +24,8 @@ struct RunFacts {
   int trials = 1;  ///< asked for
   int finished = 0;
   int jobs = 1;
-  double wall_time = 0.0;  ///< [s]
+  double wall_time = 0.0;    ///< [s]
+  double peak_memory = 0.0;  ///< [byte]
 };
 
 /// run.json: what made these results.

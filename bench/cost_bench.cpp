@@ -47,7 +47,7 @@ struct Scene {
       Peer peer;
       peer.robot_id = i;
       peer.state = PeerState::moving;
-      peer.trajectory = Trajectory{0.0};
+      Trajectory course{0.0};
       Eigen::Vector2d from = start + 4.0 * random.normal2();
       if ((from - start).norm() < 1.5) from = start + 1.5 * (from - start).normalized();
       const Eigen::Vector2d velocity = 0.7 * random.normal2().normalized();
@@ -56,8 +56,9 @@ struct Scene {
         piece.duration = 1.5;
         piece.coefficients.row(0) = (from + 1.5 * k * velocity).transpose();
         piece.coefficients.row(1) = velocity.transpose();
-        peer.trajectory.append(piece);
+        course.append(piece);
       }
+      peer.trajectory = course;
       peers.push_back(peer);
     }
     for (int i = 0; i < obstacles; ++i) {

@@ -14,9 +14,11 @@ namespace spf {
 namespace {
 
 /// The record of a trial; none when it was told to stop.
-std::optional<TrialRecord> record_of(const Cell& cell, int trial, const CampaignRequest& request) {
+std::optional<TrialRecord> record_of(const Cell& cell, int trial, int threads,
+                                     const CampaignRequest& request) {
   if (request.stop && request.stop()) return std::nullopt;
   TrialOptions options;
+  options.threads = threads;
   options.clock = request.clock;
   if (request.stop) options.progress = [&request](double) { return !request.stop(); };
   try {
@@ -48,11 +50,14 @@ std::vector<CampaignTrial> trials_of(const CampaignPlan& plan, Shard shard) {
 
 void run_campaign(const CampaignPlan& plan, const CampaignRequest& request) {
   const std::vector<CampaignTrial>& trials = request.trials;
-  WorkerPool pool{std::min(request.jobs, static_cast<int>(std::min<std::size_t>(trials.size(), 1024)))};
+  const int trials_at_once = static_cast<int>(std::min<std::size_t>(trials.size(), 1024));
+  WorkerPool pool{std::min(request.jobs, trials_at_once)};
+  const int threads = std::max(request.jobs / pool.threads(), 1);  // of each trial: more jobs than trials
   pool.collect(
       trials.size(),
       [&](std::size_t i) {
-        return record_of(plan.cells[static_cast<std::size_t>(trials[i].cell)], trials[i].trial, request);
+        const Cell& cell = plan.cells[static_cast<std::size_t>(trials[i].cell)];
+        return record_of(cell, trials[i].trial, threads, request);
       },
       [&](std::size_t, TrialRecord record) {
         if (request.finished) request.finished(std::move(record));

@@ -6,6 +6,7 @@
 
 #include "experiments/hexadecimal.hpp"
 #include "experiments/trial_watch.hpp"
+#include "parallel/worker_pool.hpp"
 #include "report/table.hpp"
 #include "sim/recording.hpp"
 #include "sim/simulation.hpp"
@@ -117,6 +118,11 @@ FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options
   simulation.listener = &watch;
   if (options.progress)
     simulation.progress = [&](double time) { return !(finished.stopped = !options.progress(time)); };
+  WorkerPool robots{options.threads};
+  if (options.threads > 1)
+    simulation.for_each = [&robots](std::size_t count, const std::function<void(std::size_t)>& job) {
+      robots.for_each(count, job);
+    };
   sim::TrialResult result = sim::Simulation{scenario, agent_parameters(cell.study), simulation}.run();
   result.trial = trial;
   finished.record = record_of(cell, result, watch);

@@ -14,6 +14,7 @@ namespace spf {
 
 struct TrialOptions {
   bool record = false;            ///< keep everything that a replay shows
+  int threads = 1;                ///< on which its robots think at the same time; makes no other difference
   std::function<double()> clock;  ///< [s] steady, callable from any thread; none: nothing is timed
   /// Called every 0.1 simulated seconds with the time [s]; false stops the trial.
   std::function<bool(double)> progress;

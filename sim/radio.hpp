@@ -9,7 +9,7 @@
 
 #include "sim/scenario.hpp"
 #include "sim/uniform_grid.hpp"
-#include "spf/world/trajectory_message.hpp"
+#include "spf/world/heard_message.hpp"
 
 namespace spf::sim {
 
@@ -19,18 +19,18 @@ class Radio {
 
   /// Hands a message to the radio at `time` [s], which must not go back; `position_world` is where the sender
   /// is.
-  void send(double time, const TrajectoryMessage& message, const Eigen::Vector2d& position_world);
+  void send(double time, const HeardMessage& message, const Eigen::Vector2d& position_world);
 
-  /// Calls deliver(receiver, message) for everything due by `time`, in the order sent. `robots` holds the
-  /// positions of all robots in `grid`; range counts from the sender's place when it sent to the receiver's
-  /// place now.
+  /// Calls deliver(receiver, message), with a HeardMessage, for everything due by `time`, in the
+  /// order sent. `robots` holds the positions of all robots in `grid`; range counts from the sender's place
+  /// when it sent to the receiver's place now.
   template <class Deliver>
   void deliver(double time, const UniformGrid& grid, const std::vector<Eigen::Vector2d>& robots,
                Deliver&& deliver) {
     while (!flights_.empty() && flights_.front().arrival_time <= time + kTimeRounding) {
       const Flight& flight = flights_.front();
       grid.visit(flight.origin, parameters_.range, [&](int receiver) {
-        if (receiver == flight.message.robot_id) return;
+        if (receiver == flight.message->robot_id) return;
         const Eigen::Vector2d& place = robots[static_cast<std::size_t>(receiver)];
         if (!((place - flight.origin).norm() <= parameters_.range) || lost(flight, receiver)) return;
         deliver(receiver, flight.message);
@@ -47,7 +47,7 @@ class Radio {
     double arrival_time;
     std::uint64_t number;  // of this sender's messages
     Eigen::Vector2d origin;
-    TrajectoryMessage message;
+    HeardMessage message;
   };
   [[nodiscard]] bool lost(const Flight& flight, int receiver) const;
 

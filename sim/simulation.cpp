@@ -10,6 +10,31 @@
 
 namespace spf::sim {
 
+namespace {
+
+/// What a robot did in a tick.
+struct Thought {
+  bool planned = false;
+  bool controlled = false;
+  double plan_seconds = 0.0;                               // of the call, with what it had to take in
+  double control_seconds = 0.0;                            // likewise
+  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  // [m/s] commanded
+  std::optional<HeardMessage> told;
+};
+
+/// What stands between the world and one agent.
+struct HostedRobot {
+  AgentInput pose_input;                 // kept for its memory
+  AgentInput world_input;                // likewise
+  std::deque<Observation> observations;  // not yet given to the agent
+  Observation spare_observation;
+  Thought thought;             // of this tick
+  double world_seconds = 0.0;  // taking in the world since the last plan
+  double pose_seconds = 0.0;   // taking in poses since the last control tick
+};
+
+}  // namespace
+
 struct Simulation::Implementation {
   Implementation(const Scenario& scenario, const AgentParameters& agent,
                  const SimulationOptions& given_options);
@@ -21,10 +46,13 @@ struct Simulation::Implementation {
   void think();
   void end();
 
+  // Of one robot, at the same time as the others: they change nothing but what is its own.
   void think(std::size_t robot);
   void plan(std::size_t robot, double started);
   void track(std::size_t robot);
   void deliver_observations(std::size_t robot);
+  /// What came of it, one robot after the other.
+  void conclude(std::size_t robot);
   void place_ideally();
   void tell_frame();
   void tell_events();
@@ -46,17 +74,10 @@ struct Simulation::Implementation {
   std::unique_ptr<Recorder> recorder;
   std::vector<TrialListener*> listeners;  // the recorder among them
 
-  // Inputs of the agents, kept for their memory.
-  std::vector<AgentInput> pose_inputs;
-  std::vector<AgentInput> world_inputs;
-  std::vector<std::deque<Observation>> observations;  // not yet given to the agent
-  std::vector<Observation> spare_observations;
-
+  std::vector<HostedRobot> hosted;
   std::size_t contacts_seen = 0;
   std::size_t hits_seen = 0;
   bool stopped_by_caller = false;
-  std::vector<double> world_seconds;    // taking in the world since the last plan, by robot
-  std::vector<double> pose_seconds;     // taking in poses since the last control tick, by robot
   std::vector<double> last_control_us;  // by robot
   std::vector<float> plan_ms;
   std::vector<float> control_us;
@@ -83,12 +104,7 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
     agents.back().set_goal(task.goal_world, task.goal_heading);
   }
   wheel_speeds.assign(count, Eigen::Vector3d::Zero());
-  pose_inputs.resize(count);
-  world_inputs.resize(count);
-  observations.resize(count);
-  spare_observations.resize(count);
-  world_seconds.assign(count, 0.0);
-  pose_seconds.assign(count, 0.0);
+  hosted.resize(count);
   last_control_us.assign(count, 0.0);
 }
 
@@ -99,8 +115,8 @@ void Simulation::Implementation::begin() {
 
 void Simulation::Implementation::hear() {
   radio.deliver(now(), world.robot_grid(), world.positions(),
-                [this](int receiver, const TrajectoryMessage& message) {
-                  world_inputs[static_cast<std::size_t>(receiver)].messages.push_back(message);
+                [this](int receiver, const HeardMessage& message) {
+                  hosted[static_cast<std::size_t>(receiver)].world_input.messages.push_back(message);
                 });
 }
 
@@ -108,28 +124,36 @@ void Simulation::Implementation::observe() {
   for (std::size_t i = 0; i < agents.size(); ++i) {
     if (!world.robots()[i].active()) continue;
     const int robot = static_cast<int>(i);
-    pose_inputs[i].poses.clear();
-    pose_inputs[i].poses.push_back(world.measure_pose(robot));
+    hosted[i].pose_input.poses.clear();
+    hosted[i].pose_input.poses.push_back(world.measure_pose(robot));
     if (!world.observation_due()) continue;
-    Observation observation = std::move(spare_observations[i]);
+    Observation observation = std::move(hosted[i].spare_observation);
     world.observe(robot, observation);
-    observations[i].push_back(std::move(observation));
+    hosted[i].observations.push_back(std::move(observation));
   }
 }
 
 void Simulation::Implementation::think() {
-  for (std::size_t i = 0; i < agents.size(); ++i) {
-    if (world.robots()[i].active()) think(i);
-    world_inputs[i].messages.clear();
+  const auto job = [this](std::size_t robot) {
+    hosted[robot].thought = {};
+    if (world.robots()[robot].active()) think(robot);
+    hosted[robot].world_input.messages.clear();
+  };
+  if (options.for_each) {
+    options.for_each(agents.size(), job);
+  } else {
+    for (std::size_t i = 0; i < agents.size(); ++i) job(i);
   }
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    if (world.robots()[i].active()) conclude(i);
 }
 
 /// The two halves of a robot's step, timed apart: what planning has to take in, and what control has.
 void Simulation::Implementation::think(std::size_t robot) {
   RobotAgent& agent = agents[robot];
   double started = clock();
-  agent.receive(now(), pose_inputs[robot]);
-  pose_seconds[robot] += clock() - started;
+  agent.receive(now(), hosted[robot].pose_input);
+  hosted[robot].pose_seconds += clock() - started;
 
   started = clock();
   deliver_observations(robot);
@@ -137,24 +161,23 @@ void Simulation::Implementation::think(std::size_t robot) {
   if (plans)
     plan(robot, started);
   else
-    world_seconds[robot] += clock() - started;
+    hosted[robot].world_seconds += clock() - started;
   if (agent.control_due(now())) track(robot);
-  meter.stood(static_cast<int>(robot), agent.status(), world.pose_interval());
 }
 
 /// Hands over what has been heard, and what was seen at least the computing delay ago: a plan that takes so
 /// long is committed when it is ready, but knows no more than was known when it began.
 void Simulation::Implementation::deliver_observations(std::size_t robot) {
   constexpr double kTimeRounding = 1e-9;  // [s]
-  AgentInput& input = world_inputs[robot];
-  std::deque<Observation>& waiting = observations[robot];
+  AgentInput& input = hosted[robot].world_input;
+  std::deque<Observation>& waiting = hosted[robot].observations;
   const double seen_by = now() - world.scenario().simulation.trial.computing_delay + kTimeRounding;
   bool delivered = false;
   while (!waiting.empty() && waiting.front().time <= seen_by) {
     input.observation = std::move(waiting.front());
     waiting.pop_front();
     agents[robot].receive(now(), input);
-    spare_observations[robot] = std::move(*input.observation);
+    hosted[robot].spare_observation = std::move(*input.observation);
     input.observation.reset();
     input.messages.clear();
     delivered = true;
@@ -163,23 +186,41 @@ void Simulation::Implementation::deliver_observations(std::size_t robot) {
 }
 
 void Simulation::Implementation::plan(std::size_t robot, double started) {
-  RobotAgent& agent = agents[robot];
-  const std::optional<TrajectoryMessage> told = agent.plan(now());
-  const double seconds = world_seconds[robot] + clock() - started;
-  world_seconds[robot] = 0.0;
-  if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * seconds));
-  meter.planned(static_cast<int>(robot), agent.last_plan());
-  if (told) radio.send(now(), *told, world.positions()[robot]);
-  for (TrialListener* listener : listeners) listener->planned(now(), agent, 1e3 * seconds);
+  Thought& thought = hosted[robot].thought;
+  const std::optional<TrajectoryMessage> told = agents[robot].plan(now());
+  thought.planned = true;
+  thought.plan_seconds = hosted[robot].world_seconds + clock() - started;
+  hosted[robot].world_seconds = 0.0;
+  if (told) thought.told = *told;
 }
 
 void Simulation::Implementation::track(std::size_t robot) {
+  Thought& thought = hosted[robot].thought;
   const double started = clock();
-  world.command(static_cast<int>(robot), agents[robot].track(now()));
-  if (!options.clock) return;
-  last_control_us[robot] = 1e6 * (pose_seconds[robot] + clock() - started);
-  pose_seconds[robot] = 0.0;
-  control_us.push_back(static_cast<float>(last_control_us[robot]));
+  thought.wheel_speeds = agents[robot].track(now());
+  thought.controlled = true;
+  thought.control_seconds = hosted[robot].pose_seconds + clock() - started;
+  hosted[robot].pose_seconds = 0.0;
+}
+
+void Simulation::Implementation::conclude(std::size_t robot) {
+  const int id = static_cast<int>(robot);
+  const RobotAgent& agent = agents[robot];
+  const Thought& thought = hosted[robot].thought;
+  if (thought.planned) {
+    if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * thought.plan_seconds));
+    meter.planned(id, agent.last_plan());
+    if (thought.told) radio.send(now(), *thought.told, world.positions()[robot]);
+    for (TrialListener* listener : listeners) listener->planned(now(), agent, 1e3 * thought.plan_seconds);
+  }
+  if (thought.controlled) {
+    world.command(id, thought.wheel_speeds);
+    if (options.clock) {
+      last_control_us[robot] = 1e6 * thought.control_seconds;
+      control_us.push_back(static_cast<float>(last_control_us[robot]));
+    }
+  }
+  meter.stood(id, agent.status(), world.pose_interval());
 }
 
 void Simulation::Implementation::end() {

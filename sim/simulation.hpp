@@ -1,8 +1,10 @@
 // Hosts one RobotAgent per robot in a scenario's ground truth and runs one trial to its end, in the order of
-// docs/protocol.md. Deterministic: the result depends on scenario and parameters alone, never on clocks or
-// threads.
+// docs/protocol.md. Within a tick every robot thinks with what it has sensed and heard before, so they may
+// do it at the same time; what they say and command takes effect afterwards, by number. Deterministic: the
+// result depends on scenario and parameters alone, never on clocks or threads.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 
@@ -13,6 +15,10 @@
 
 namespace spf::sim {
 
+/// Calls job(i) once for every i of 0 ... count - 1, on any threads and in any order, and returns when all
+/// have ended.
+using ForEach = std::function<void(std::size_t count, const std::function<void(std::size_t)>& job)>;
+
 struct SimulationOptions {
   bool record = false;  ///< fill TrialResult::recording
   /// Seconds of some steady clock; used to measure computing only. None: nothing is measured.
@@ -20,6 +26,9 @@ struct SimulationOptions {
   /// Called every 0.1 simulated seconds with the time [s]; false ends the trial (as overtime).
   std::function<bool(double)> progress;
   TrialListener* listener = nullptr;  ///< told of what happens; must outlive the simulation
+  /// How the robots of one tick think; none: one after the other, on the calling thread. `clock` is then read
+  /// on the threads of this.
+  ForEach for_each;
 };
 
 class Simulation {

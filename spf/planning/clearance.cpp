@@ -114,10 +114,10 @@ void ClearanceModel::add_peer(const Peer& peer) {
   disc.id = peer.robot_id;
   disc.is_peer = true;
   disc.radius = robot_.radius + peer.radius + (peer.expired ? peer.growth : 0.0);
-  if (peer.expired || peer.trajectory.empty()) {
+  if (peer.expired || peer.trajectory->empty()) {
     disc.position_world = peer.position(peer.received_time);
   } else {
-    disc.trajectory = &peer.trajectory;
+    disc.trajectory = &*peer.trajectory;
     disc.speed_bound = speed_bound(peer.trajectory);
   }
   discs_.push_back(disc);

@@ -28,10 +28,6 @@ double GuidePath::cost_at(const Node& node, const Eigen::Vector2d& local) const 
   return static_cast<double>(node.root_cost) + std::sqrt(dx * dx + dy * dy);
 }
 
-float GuidePath::own_cost(std::int32_t index) const {
-  return static_cast<float>(cost_at(nodes_[static_cast<std::size_t>(index)], place(index)));
-}
-
 // ---- queries
 // --------------------------------------------------------------------------------------------------
 
@@ -66,7 +62,7 @@ double GuidePath::cost_to_go(const Eigen::Vector2d& position_world) const {
   const Cell cell = cell_of(position_world);
   double cost = cell.outside;
   for (std::size_t k = 0; k < 4; ++k) {
-    cost += cell.weight[k] * cost_at(nodes_[static_cast<std::size_t>(cell.node[k])], cell.local);
+    cost += cell.weight[k] * cost_at(node_at(cell.node[k]), cell.local);
   }
   return cost;
 }
@@ -76,7 +72,7 @@ Eigen::Vector2d GuidePath::cost_gradient(const Eigen::Vector2d& position_world) 
   if (cell.outside > 0.0) return cell.outward;
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
-    const Node& node = nodes_[static_cast<std::size_t>(cell.node[k])];
+    const Node& node = node_at(cell.node[k]);
     gradient += cost_at(node, cell.local) * cell.slope[k];
     const Eigen::Vector2d from_root = cell.local - Eigen::Vector2d{node.root_x, node.root_y};
     const double length = from_root.norm();
@@ -97,7 +93,8 @@ std::int32_t GuidePath::best_corner(const Cell& cell) const {
   std::int32_t best = cell.node[0];
   double lowest = std::numeric_limits<double>::infinity();
   for (const std::int32_t index : cell.node) {
-    const double cost = (cell.local - place(index)).norm() + static_cast<double>(own_cost(index));
+    const double cost =
+        (cell.local - place(index)).norm() + static_cast<double>(own_cost(node_at(index), index));
     if (cost < lowest) {
       lowest = cost;
       best = index;
@@ -113,13 +110,11 @@ void GuidePath::walk(const Eigen::Vector2d& position_world, const Visit& visit) 
   if (!visit(Eigen::Vector2d{position_world - window_.origin_world})) return;
   if (cell.outside > 0.0 && !visit(cell.local)) return;
   const std::int32_t corner = best_corner(cell);
-  const auto parent_of = [this](std::int32_t index) {
-    return nodes_[static_cast<std::size_t>(index)].parent;
-  };
+  const auto parent_of = [this](std::int32_t index) { return node_at(index).parent; };
   const bool agreed = std::all_of(cell.node.begin(), cell.node.end(),
                                   [&](std::int32_t index) { return parent_of(index) == parent_of(corner); });
   // Where the four nodes see different corners, the straight line from here to one of them may clip an edge.
-  const Node& first = nodes_[static_cast<std::size_t>(corner)];
+  const Node& first = node_at(corner);
   if (!agreed && !on_blocked_ground(first) && !visit(place(corner))) return;
   std::int32_t index = corner;
   if (on_blocked_ground(first) && first.parent != kBlocked) {
@@ -128,7 +123,7 @@ void GuidePath::walk(const Eigen::Vector2d& position_world, const Visit& visit) 
   }
   // Costs fall from root to root, so this ends at the goal.
   while (index >= 0) {
-    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    const Node& node = node_at(index);
     if (!visit(Eigen::Vector2d{node.root_x, node.root_y})) return;
     index = node.parent;
   }
@@ -163,7 +158,7 @@ void GuidePath::way(const Eigen::Vector2d& position_world,
 bool GuidePath::reachable(const Eigen::Vector2d& position_world) const {
   const Cell cell = cell_of(position_world);
   return cell.outside == 0.0 && std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t index) {
-           return !on_blocked_ground(nodes_[static_cast<std::size_t>(index)]);
+           return !on_blocked_ground(node_at(index));
          });
 }
 

@@ -47,7 +47,9 @@ class GuidePath {
   /// Throws std::invalid_argument on parameters out of range.
   explicit GuidePath(const GuidePathParameters& parameters);
 
-  /// Floods from the goal far enough for a robot at `robot_world`; memory is kept from run to run.
+  /// Floods from the goal far enough for a robot at `robot_world`. What the flood works with (some 30 bytes a
+  /// node) is kept from run to run where the map is being sensed, since the next flood is near, and given
+  /// back where all of it is known; what remains is 2 bytes a node and 16 for every different root.
   GuideOutcome update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                       const Eigen::Vector2d& robot_world);
   /// Whether update() with these arguments would do work of any use: new goal, changed map, robot out of the
@@ -55,7 +57,7 @@ class GuidePath {
   [[nodiscard]] bool outdated(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                               const Eigen::Vector2d& robot_world) const;
 
-  [[nodiscard]] bool ready() const { return !nodes_.empty(); }
+  [[nodiscard]] bool ready() const { return !roots_.empty(); }
   [[nodiscard]] GuideOutcome outcome() const { return outcome_; }
 
   // The following need ready(); none allocates (except the growth of way()'s argument).
@@ -92,6 +94,14 @@ class GuidePath {
     float cost;
     std::int32_t node;
   };
+  /// The flood under way, by node of the window.
+  struct Flood {
+    std::vector<Node> nodes;
+    std::vector<std::uint8_t> state;
+    std::vector<Entry> heap;
+    std::vector<std::int32_t> portal;
+    std::vector<std::int32_t> queue;
+  };
   struct Cell;
   static constexpr std::int32_t kGoal = -1;
   static constexpr std::int32_t kUnseen = -2;
@@ -101,7 +111,13 @@ class GuidePath {
   [[nodiscard]] static std::int32_t portal_of(const Node& node) { return kBlocked - 1 - node.parent; }
   [[nodiscard]] Eigen::Vector2d place(std::int32_t index) const;
   [[nodiscard]] double cost_at(const Node& node, const Eigen::Vector2d& local) const;
-  [[nodiscard]] float own_cost(std::int32_t index) const;
+  [[nodiscard]] float own_cost(const Node& node, std::int32_t index) const {
+    return static_cast<float>(cost_at(node, place(index)));
+  }
+  [[nodiscard]] const Node& node_at(std::int32_t index) const {
+    const auto node = static_cast<std::size_t>(index);
+    return roots_[root_of_.empty() ? node : root_of_[node]];
+  }
   [[nodiscard]] Cell cell_of(const Eigen::Vector2d& position_world) const;
   [[nodiscard]] std::int32_t best_corner(const Cell& cell) const;
   template <class Visit>
@@ -124,6 +140,8 @@ class GuidePath {
   [[nodiscard]] bool in_view(const OccupancyMap& map, std::int32_t index, const Node& root) const;
   [[nodiscard]] bool flood_reached(const Eigen::Vector2d& position_world) const;
   void extend_over_blocked_ground();
+  void keep(const OccupancyMap& map);
+  [[nodiscard]] std::optional<std::uint16_t> kept_beside(std::int32_t index) const;
   [[nodiscard]] std::optional<Eigen::Vector2d> nearest_free_place(const OccupancyMap& map,
                                                                   const Eigen::Vector2d& wanted) const;
   [[nodiscard]] bool window_covers(const Eigen::Vector2d& position_world) const;
@@ -135,12 +153,10 @@ class GuidePath {
   std::uint64_t map_revision_ = 0;
   bool whole_map_ = false;
   GridFrame window_;
-  std::vector<Node> nodes_;
-  // Of the flood under way, kept for their memory:
-  std::vector<std::uint8_t> state_;
-  std::vector<Entry> heap_;
-  std::vector<std::int32_t> portal_;
-  std::vector<std::int32_t> queue_;
+  // What the flood found. Neighbours mostly know the same, so that is kept once.
+  std::vector<Node> roots_;
+  std::vector<std::uint16_t> root_of_;  // by node, an index into roots_; empty: roots_ is by node itself
+  Flood flood_;
 };
 
 }  // namespace spf

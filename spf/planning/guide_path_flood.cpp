@@ -41,7 +41,7 @@ void GuidePath::for_neighbours(std::int32_t index, const Visit& visit) const {
 
 GuideOutcome GuidePath::update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                                const Eigen::Vector2d& robot_world) {
-  nodes_.clear();
+  roots_.clear();
   goal_asked_ = goal_world;
   goal_used_ = goal_world;
   map_revision_ = map.revision();
@@ -66,6 +66,7 @@ GuideOutcome GuidePath::update(const OccupancyMap& map, const Eigen::Vector2d& g
     if (whole_map_) break;
   }
   extend_over_blocked_ground();
+  keep(map);
   return outcome_;
 }
 
@@ -79,11 +80,12 @@ bool GuidePath::flood_reached(const Eigen::Vector2d& position_world) const {
     for (int dj = -reach; dj <= 1 + reach; ++dj) {
       for (int di = -reach; di <= 1 + reach; ++di) {
         if (!window_.contains(i + di, j + dj)) continue;
-        if (state_[static_cast<std::size_t>((j + dj) * window_.width + i + di)] == settled) return true;
+        if (flood_.state[static_cast<std::size_t>((j + dj) * window_.width + i + di)] == settled) return true;
       }
     }
     const Eigen::Vector2i nearest = window_.nearest_node(position_world);
-    if (state_[static_cast<std::size_t>(nearest.y() * window_.width + nearest.x())] == unseen) return false;
+    if (flood_.state[static_cast<std::size_t>(nearest.y() * window_.width + nearest.x())] == unseen)
+      return false;
   }
   return false;
 }
@@ -113,12 +115,13 @@ void GuidePath::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, 
 void GuidePath::mark_free_nodes(const OccupancyMap& map) {
   const std::size_t count =
       static_cast<std::size_t>(window_.width) * static_cast<std::size_t>(window_.height);
-  state_.resize(count);
-  nodes_.assign(count, {0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen});
+  flood_.state.resize(count);
+  flood_.nodes.assign(count, {0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen});
   std::size_t index = 0;
   for (int j = 0; j < window_.height; ++j) {
     for (int i = 0; i < window_.width; ++i, ++index) {
-      state_[index] = map.distance(window_.node_position(i, j)) >= parameters_.clearance ? unseen : blocked;
+      flood_.state[index] =
+          map.distance(window_.node_position(i, j)) >= parameters_.clearance ? unseen : blocked;
     }
   }
 }
@@ -127,15 +130,15 @@ void GuidePath::mark_free_nodes(const OccupancyMap& map) {
 // checked, once a node (lazy); a node that was wrong gets the best root that is, and waits for its turn
 // again.
 void GuidePath::flood(const OccupancyMap& map) {
-  heap_.clear();
+  flood_.heap.clear();
   seed(map);
-  while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end(), dearer<Entry>);
-    const Entry entry = heap_.back();
-    heap_.pop_back();
-    std::uint8_t& state = state_[static_cast<std::size_t>(entry.node)];
-    Node& node = nodes_[static_cast<std::size_t>(entry.node)];
-    if (state == settled || entry.cost > own_cost(entry.node)) continue;  // an older, dearer entry
+  while (!flood_.heap.empty()) {
+    std::pop_heap(flood_.heap.begin(), flood_.heap.end(), dearer<Entry>);
+    const Entry entry = flood_.heap.back();
+    flood_.heap.pop_back();
+    std::uint8_t& state = flood_.state[static_cast<std::size_t>(entry.node)];
+    Node& node = flood_.nodes[static_cast<std::size_t>(entry.node)];
+    if (state == settled || entry.cost > own_cost(node, entry.node)) continue;  // an older, dearer entry
     if (state == trusted && !between_seers(entry.node) && !in_view(map, entry.node, node)) {
       find_root_in_view(map, entry.node);
       state = seen;
@@ -152,7 +155,7 @@ void GuidePath::flood(const OccupancyMap& map) {
 // between their lines of sight: they are less than 1.4 clearance apart and a surface is 2 clearance wide.
 // Saves most looks.
 bool GuidePath::between_seers(std::int32_t index) const {
-  const Node& node = nodes_[static_cast<std::size_t>(index)];
+  const Node& node = flood_.nodes[static_cast<std::size_t>(index)];
   const Eigen::Vector2d to_root = Eigen::Vector2d{node.root_x, node.root_y} - place(index);
   const double x = std::fabs(to_root.x());
   const double y = std::fabs(to_root.y());
@@ -163,8 +166,8 @@ bool GuidePath::between_seers(std::int32_t index) const {
   const auto sees_same = [&](std::int32_t along_x, std::int32_t along_y) {
     if (!window_.contains(here.x() + along_x, here.y() + along_y)) return false;
     const std::int32_t neighbour = index + along_x + along_y * window_.width;
-    const Node& other = nodes_[static_cast<std::size_t>(neighbour)];
-    return state_[static_cast<std::size_t>(neighbour)] == settled && other.parent == node.parent &&
+    const Node& other = flood_.nodes[static_cast<std::size_t>(neighbour)];
+    return flood_.state[static_cast<std::size_t>(neighbour)] == settled && other.parent == node.parent &&
            other.root_x == node.root_x && other.root_y == node.root_y;
   };
   constexpr double kAlong = 1e-6;  // on a row or column the diagonal neighbour does not matter
@@ -174,8 +177,8 @@ bool GuidePath::between_seers(std::int32_t index) const {
 }
 
 void GuidePath::push(std::int32_t index) {
-  heap_.push_back({own_cost(index), index});
-  std::push_heap(heap_.begin(), heap_.end(), dearer<Entry>);
+  flood_.heap.push_back({own_cost(flood_.nodes[static_cast<std::size_t>(index)], index), index});
+  std::push_heap(flood_.heap.begin(), flood_.heap.end(), dearer<Entry>);
 }
 
 // The nodes beside the goal, or, in a narrow place, the nearest that see it.
@@ -183,12 +186,12 @@ void GuidePath::seed(const OccupancyMap& map) {
   const Eigen::Vector2d local = goal_used_ - window_.origin_world;
   const Node goal{static_cast<float>(local.x()), static_cast<float>(local.y()), 0.0F, kGoal};
   const Eigen::Vector2i centre = window_.nearest_node(goal_used_);
-  for (int reach = 1; reach <= 4 && heap_.empty(); ++reach) {
+  for (int reach = 1; reach <= 4 && flood_.heap.empty(); ++reach) {
     for (int j = centre.y() - reach; j <= centre.y() + reach; ++j) {
       for (int i = centre.x() - reach; i <= centre.x() + reach; ++i) {
         if (!window_.contains(i, j)) continue;
         const std::int32_t index = j * window_.width + i;
-        if (state_[static_cast<std::size_t>(index)] == unseen && in_view(map, index, goal))
+        if (flood_.state[static_cast<std::size_t>(index)] == unseen && in_view(map, index, goal))
           offer(index, goal);
       }
     }
@@ -196,10 +199,11 @@ void GuidePath::seed(const OccupancyMap& map) {
 }
 
 void GuidePath::offer(std::int32_t index, const Node& root) {
-  std::uint8_t& state = state_[static_cast<std::size_t>(index)];
+  std::uint8_t& state = flood_.state[static_cast<std::size_t>(index)];
   if (state == blocked || state == settled) return;
-  if (!(static_cast<float>(cost_at(root, place(index))) < own_cost(index))) return;
-  nodes_[static_cast<std::size_t>(index)] = root;
+  Node& node = flood_.nodes[static_cast<std::size_t>(index)];
+  if (!(own_cost(root, index) < own_cost(node, index))) return;
+  node = root;
   state = trusted;
   push(index);
 }
@@ -225,33 +229,33 @@ void GuidePath::find_root_in_view(const OccupancyMap& map, std::int32_t index) {
     best = root;
   };
   for_neighbours(index, [&](std::int32_t next) {
-    if (state_[static_cast<std::size_t>(next)] != settled) return;
+    if (flood_.state[static_cast<std::size_t>(next)] != settled) return;
     try_root(root_at(next, place(next)), true);
     // The corner itself stands off the nodes, between this one and the last in view, at the clearance.
     for (const Eigen::Vector2d& near : {place(next), Eigen::Vector2d{0.5 * (place(next) + here)}}) {
       const Node corner = root_at(next, at_clearance(map, near));
       const Eigen::Vector2d corner_place{corner.root_x, corner.root_y};
       if (cost_at(corner, here) < lowest &&
-          sees_place(map, nodes_[static_cast<std::size_t>(next)], corner_place)) {
+          sees_place(map, flood_.nodes[static_cast<std::size_t>(next)], corner_place)) {
         try_root(corner, false);
       }
     }
   });
-  const Node failed = nodes_[static_cast<std::size_t>(index)];
+  const Node failed = flood_.nodes[static_cast<std::size_t>(index)];
   std::int32_t last_tried = failed.parent;
   for_neighbours(index, [&](std::int32_t next) {
-    const Node& root = nodes_[static_cast<std::size_t>(next)];
-    if (state_[static_cast<std::size_t>(next)] != settled || root.parent == failed.parent) return;
+    const Node& root = flood_.nodes[static_cast<std::size_t>(next)];
+    if (flood_.state[static_cast<std::size_t>(next)] != settled || root.parent == failed.parent) return;
     if (root.parent == last_tried) return;
     last_tried = root.parent;
     try_root(root, false);
   });
-  nodes_[static_cast<std::size_t>(index)] = best;
+  flood_.nodes[static_cast<std::size_t>(index)] = best;
 }
 
 // A place in view of a node's root as a root of its own.
 GuidePath::Node GuidePath::root_at(std::int32_t index, const Eigen::Vector2d& local) const {
-  const double cost = cost_at(nodes_[static_cast<std::size_t>(index)], local);
+  const double cost = cost_at(flood_.nodes[static_cast<std::size_t>(index)], local);
   return {static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(cost), index};
 }
 
@@ -269,42 +273,82 @@ Eigen::Vector2d GuidePath::at_clearance(const OccupancyMap& map, const Eigen::Ve
 // portal, and for every metre of depth beyond the first cells a surcharge. Nearest, not cheapest, so that the
 // two faces of a wall keep their own costs.
 void GuidePath::extend_over_blocked_ground() {
-  queue_.clear();
-  portal_.assign(nodes_.size(), kUnseen);
-  const std::int32_t count = static_cast<std::int32_t>(nodes_.size());
+  flood_.queue.clear();
+  flood_.portal.assign(flood_.nodes.size(), kUnseen);
+  const std::int32_t count = static_cast<std::int32_t>(flood_.nodes.size());
   for (std::int32_t index = 0; index < count; ++index) {
-    if (state_[static_cast<std::size_t>(index)] != settled) continue;
-    portal_[static_cast<std::size_t>(index)] = index;
-    queue_.push_back(index);
+    if (flood_.state[static_cast<std::size_t>(index)] != settled) continue;
+    flood_.portal[static_cast<std::size_t>(index)] = index;
+    flood_.queue.push_back(index);
   }
-  if (queue_.empty()) {  // not even the goal's neighbours: straight lines, all of them surcharged
+  if (flood_.queue.empty()) {  // not even the goal's neighbours: straight lines, all of them surcharged
     const Eigen::Vector2d local = goal_used_ - window_.origin_world;
     const Node goal{static_cast<float>(local.x()), static_cast<float>(local.y()), 0.0F, kBlocked};
-    std::fill(nodes_.begin(), nodes_.end(), goal);
+    std::fill(flood_.nodes.begin(), flood_.nodes.end(), goal);
     return;
   }
-  for (std::size_t head = 0; head < queue_.size(); ++head) {
-    const std::int32_t portal = portal_[static_cast<std::size_t>(queue_[head])];
+  for (std::size_t head = 0; head < flood_.queue.size(); ++head) {
+    const std::int32_t portal = flood_.portal[static_cast<std::size_t>(flood_.queue[head])];
     const Eigen::Vector2d portal_place = place(portal);
-    for_neighbours(queue_[head], [&](std::int32_t next) {
-      std::int32_t& known = portal_[static_cast<std::size_t>(next)];
+    for_neighbours(flood_.queue[head], [&](std::int32_t next) {
+      std::int32_t& known = flood_.portal[static_cast<std::size_t>(next)];
       if (known == next || known == portal) return;
       const double depth = (place(next) - portal_place).squaredNorm();
       if (known != kUnseen && depth >= (place(next) - place(known)).squaredNorm()) return;
       known = portal;
-      queue_.push_back(next);
+      flood_.queue.push_back(next);
     });
   }
   const double free_depth = 1.5 * window_.resolution;
   for (std::int32_t index = 0; index < count; ++index) {
-    const std::int32_t portal = portal_[static_cast<std::size_t>(index)];
+    const std::int32_t portal = flood_.portal[static_cast<std::size_t>(index)];
     if (portal == index) continue;
-    Node node = nodes_[static_cast<std::size_t>(portal)];
+    Node node = flood_.nodes[static_cast<std::size_t>(portal)];
     const double depth = std::max((place(index) - place(portal)).norm() - free_depth, 0.0);
     node.root_cost += static_cast<float>((parameters_.blocked_factor - 1.0) * depth);
     node.parent = kBlocked - 1 - portal;
-    nodes_[static_cast<std::size_t>(index)] = node;
+    flood_.nodes[static_cast<std::size_t>(index)] = node;
   }
+}
+
+// Root and cost spread over whole regions, so that nearly every node is the same as one beside it.
+void GuidePath::keep(const OccupancyMap& map) {
+  constexpr std::size_t kMostRoots = std::size_t{1} << 16;
+  root_of_.clear();
+  root_of_.reserve(flood_.nodes.size());
+  const auto count = static_cast<std::int32_t>(flood_.nodes.size());
+  for (std::int32_t index = 0; index < count; ++index) {
+    const std::optional<std::uint16_t> known = kept_beside(index);
+    if (!known && roots_.size() == kMostRoots) {
+      root_of_.clear();
+      roots_ = flood_.nodes;
+      break;
+    }
+    root_of_.push_back(known.value_or(static_cast<std::uint16_t>(roots_.size())));
+    if (!known) roots_.push_back(flood_.nodes[static_cast<std::size_t>(index)]);
+  }
+  if (map.sensed()) return;
+  flood_ = {};
+  roots_.shrink_to_fit();
+}
+
+/// Where a neighbour that was kept before holds the same as this node.
+std::optional<std::uint16_t> GuidePath::kept_beside(std::int32_t index) const {
+  const Node& node = flood_.nodes[static_cast<std::size_t>(index)];
+  const int column = index % window_.width;
+  const auto same = [&](std::int32_t beside) {
+    const Node& other = flood_.nodes[static_cast<std::size_t>(beside)];
+    return other.parent == node.parent && other.root_x == node.root_x && other.root_y == node.root_y &&
+           other.root_cost == node.root_cost;
+  };
+  const std::int32_t below = index - window_.width;
+  if (column > 0 && same(index - 1)) return root_of_[static_cast<std::size_t>(index - 1)];
+  if (below < 0) return std::nullopt;
+  for (int step : {0, -1, 1}) {
+    if (column + step < 0 || column + step >= window_.width) continue;
+    if (same(below + step)) return root_of_[static_cast<std::size_t>(below + step)];
+  }
+  return std::nullopt;
 }
 
 // Rings of map nodes around the wanted place; the place itself when it keeps the clearance.

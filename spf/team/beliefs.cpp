@@ -38,7 +38,7 @@ void Beliefs::mask_dynamic_returns(double time) {
     masked_.push_back(
         {now, track.state.radius + slack + 2.0 * track.position_sigma(std::max(0.0, time - track.time))});
   }
-  for (const Peer& peer : peers_) {
+  for (const Peer& peer : peers()) {
     if (std::binary_search(distrusted_.begin(), distrusted_.end(), peer.robot_id)) continue;
     masked_.push_back({peer.position(time), peer.radius + peer.growth + slack + 2.0 * peer.position_sigma});
   }
@@ -46,7 +46,7 @@ void Beliefs::mask_dynamic_returns(double time) {
 
 void Beliefs::refresh(double time) {
   tracks_ = obstacle_tracker_.tracks();
-  peers_ = peer_table_.peers(time);
+  static_cast<void>(peer_table_.peers(time));
 }
 
 }  // namespace spf

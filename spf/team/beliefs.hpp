@@ -22,7 +22,7 @@ class Beliefs {
   /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed).
   Beliefs(int robot_id, const AgentParameters& parameters, const OccupancyMap& map, double time);
 
-  void hear(const TrajectoryMessage& message, double now) { peer_table_.receive(message, now); }
+  void hear(const HeardMessage& message, double now) { peer_table_.receive(message, now); }
   /// Whether an observation tells about the present: neither too old to rely on nor ahead of time.
   [[nodiscard]] bool timely(const Observation& observation, double now) const;
   /// Takes in a timely observation. Its scan enters the map where the robot's pose then is known.
@@ -35,11 +35,11 @@ class Beliefs {
 
   /// Holds until the next call that changes anything.
   [[nodiscard]] WorldSnapshot snapshot(double time) const {
-    return {time, robot_id_, &map_, &tracks_, &peers_, priority_};
+    return {time, robot_id_, &map_, &tracks_, &peers(), priority_};
   }
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
-  [[nodiscard]] const std::vector<Peer>& peers() const { return peers_; }
+  [[nodiscard]] const std::vector<Peer>& peers() const { return peer_table_.last_peers(); }
   [[nodiscard]] double last_observation_time() const { return last_observation_time_; }  ///< [s]
   [[nodiscard]] std::uint64_t message_count(MessageVerdict verdict) const {
     return peer_table_.count(verdict);
@@ -56,7 +56,6 @@ class Beliefs {
   ObstacleTracker obstacle_tracker_;
   PeerTable peer_table_;
   std::vector<ObstacleTrack> tracks_;
-  std::vector<Peer> peers_;
   std::vector<int> distrusted_;
   std::vector<IgnoredDisc> masked_;  // of the observation under way, kept for its memory
   double last_observation_time_;     // [s]

@@ -72,7 +72,7 @@ void RobotAgent::Implementation::receive(double time, const AgentInput& input) {
     const MeasurementOutcome outcome = tracker.observe(measurement.time, measurement.pose_world);
     if (outcome != MeasurementOutcome::invalid) last_pose_time = std::max(last_pose_time, measurement.time);
   }
-  for (const TrajectoryMessage& received : input.messages) beliefs.hear(received, time);
+  for (const HeardMessage& received : input.messages) beliefs.hear(received, time);
   if (!input.observation || !beliefs.timely(*input.observation, time)) return;
   const StateEstimate then = tracker.estimate(input.observation->time);
   beliefs.observe(*input.observation, then.valid ? std::optional{then.pose_world} : std::nullopt);

@@ -13,10 +13,11 @@
 #include "spf/planning/planner.hpp"
 #include "spf/team/agent_parameters.hpp"
 #include "spf/team/agent_status.hpp"
+#include "spf/world/heard_message.hpp"
+#include "spf/world/heard_message.hpp"
 #include "spf/world/observation.hpp"
 #include "spf/world/occupancy_map.hpp"
 #include "spf/world/peer_table.hpp"
-#include "spf/world/trajectory_message.hpp"
 
 namespace spf {
 
@@ -24,7 +25,7 @@ namespace spf {
 struct AgentInput {
   std::vector<PoseMeasurement> poses;
   std::optional<Observation> observation;
-  std::vector<TrajectoryMessage> messages;
+  std::vector<HeardMessage> messages;
 };
 
 /// Where the agent takes its own position from. Not a parameter: the host knows how it moves the robot.

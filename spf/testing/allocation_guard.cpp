@@ -1,5 +1,7 @@
 #include "spf/testing/allocation_guard.hpp"
 
+#include <malloc.h>
+
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -7,6 +9,17 @@
 namespace {
 
 thread_local long allocation_count = 0;
+thread_local long bytes_held = 0;
+
+long size_of(void* memory) {
+  return memory == nullptr ? 0 : static_cast<long>(malloc_usable_size(memory));
+}
+
+void* counted(void* memory) {
+  ++allocation_count;
+  bytes_held += size_of(memory);
+  return memory;
+}
 
 void* allocate(std::size_t size) {
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;  // counted by the wrapped malloc
@@ -40,26 +53,31 @@ void* __real_calloc(std::size_t count, std::size_t size);
 void* __real_realloc(void* memory, std::size_t size);
 void* __real_aligned_alloc(std::size_t alignment, std::size_t size);
 int __real_posix_memalign(void** memory, std::size_t alignment, std::size_t size);
+void __real_free(void* memory);
 
 void* __wrap_malloc(std::size_t size) {
-  ++allocation_count;
-  return __real_malloc(size);
+  return counted(__real_malloc(size));
 }
 void* __wrap_calloc(std::size_t count, std::size_t size) {
-  ++allocation_count;
-  return __real_calloc(count, size);
+  return counted(__real_calloc(count, size));
 }
 void* __wrap_realloc(void* memory, std::size_t size) {
-  ++allocation_count;
-  return __real_realloc(memory, size);
+  const long old = size_of(memory);
+  void* moved = __real_realloc(memory, size);
+  if (moved != nullptr || size == 0) bytes_held -= old;
+  return counted(moved);
 }
 void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++allocation_count;
-  return __real_aligned_alloc(alignment, size);
+  return counted(__real_aligned_alloc(alignment, size));
 }
 int __wrap_posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
-  ++allocation_count;
-  return __real_posix_memalign(memory, alignment, size);
+  const int error = __real_posix_memalign(memory, alignment, size);
+  static_cast<void>(counted(error == 0 ? *memory : nullptr));
+  return error;
+}
+void __wrap_free(void* memory) {
+  bytes_held -= size_of(memory);
+  __real_free(memory);
 }
 }
 
@@ -126,10 +144,14 @@ void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) no
 
 namespace spf {
 
-AllocationGuard::AllocationGuard() : before_{allocation_count} {}
+AllocationGuard::AllocationGuard() : allocations_before_{allocation_count}, bytes_before_{bytes_held} {}
 
 long AllocationGuard::allocations() const {
-  return allocation_count - before_;
+  return allocation_count - allocations_before_;
+}
+
+long AllocationGuard::bytes() const {
+  return bytes_held - bytes_before_;
 }
 
 }  // namespace spf

@@ -74,6 +74,23 @@ TEST(AllocationGuard, SeesTheCallOfMallocItself) {
   EXPECT_EQ(guard.allocations(), 1);
 }
 
+TEST(AllocationGuard, KnowsHowMuchIsHeld) {
+  constexpr long kRounding = 64;  // [byte] by which an allocator may give more
+  const AllocationGuard guard;
+  {
+    std::vector<char> bytes(1000);
+    keep(bytes);
+    EXPECT_GE(guard.bytes(), 1000);
+    EXPECT_LE(guard.bytes(), 1000 + kRounding);
+    Eigen::VectorXd numbers = Eigen::VectorXd::Zero(100);
+    numbers.conservativeResize(200);
+    keep(numbers);
+    EXPECT_GE(guard.bytes(), 1000 + 1600);
+    EXPECT_LE(guard.bytes(), 1000 + 1600 + 2 * kRounding);
+  }
+  EXPECT_EQ(guard.bytes(), 0);
+}
+
 TEST(AllocationGuard, CountsOnlyItsOwnThread) {
   std::thread other{[] {
     std::string text(1000, 'x');

@@ -89,6 +89,8 @@ class OccupancyMap {
   /// How much nearer than distance() a surface may be [m]: half a cell once anything was sensed, since a cell
   /// keeps one hit point of a surface that runs through all of it; 0 where all shapes are known.
   [[nodiscard]] double surface_error() const { return sensed_ ? 0.5 * frame_.resolution : 0.0; }
+  /// Whether sweeps have been entered: more of them may change it at any time.
+  [[nodiscard]] bool sensed() const { return sensed_.has_value(); }
   /// The margin to keep by distance() so that a wanted one [m] is kept from the surfaces themselves, where
   /// the wanted one does not hold the error already.
   [[nodiscard]] double margin(double wanted) const { return std::max(wanted, surface_error()); }

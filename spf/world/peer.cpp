@@ -4,12 +4,12 @@ namespace spf {
 
 // An expired peer's trajectory has been replaced by one that stands (PeerTable), so both cases read the same.
 Eigen::Vector2d Peer::position(double time) const {
-  return trajectory.position(time);
+  return trajectory->position(time);
 }
 
 Eigen::Vector2d Peer::velocity(double time) const {
   if (expired) return Eigen::Vector2d::Zero();
-  return trajectory.state(time).velocity_world;
+  return trajectory->state(time).velocity_world;
 }
 
 }  // namespace spf

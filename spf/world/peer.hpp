@@ -1,6 +1,7 @@
 // Belief about one teammate, from its broadcasts.
 #pragma once
 
+#include "spf/math/shared.hpp"
 #include "spf/world/priority.hpp"
 #include "spf/world/trajectory_message.hpp"
 
@@ -15,7 +16,7 @@ struct Peer {
   double received_time = 0.0;   ///< [s]
   bool expired = false;  ///< the message is too old: the peer is a disc at its last known place, growing
   double growth = 0.0;   ///< [m] added to the radius of an expired peer
-  Trajectory trajectory;
+  Shared<Trajectory> trajectory{Trajectory{}};
 
   [[nodiscard]] Rank rank() const { return {priority, robot_id}; }
   /// Position at an absolute time [m]; for an expired peer the last known place.

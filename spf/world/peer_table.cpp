@@ -6,45 +6,12 @@
 #include "spf/math/believable.hpp"
 
 namespace spf {
-namespace {
-
-/// Whether position, velocity and acceleration stay believable all along a piece: bounds in which no part of
-/// the sums takes away from another.
-bool usable(const QuinticPiece& piece) {
-  if (!believable(piece.duration) || !(piece.duration > 0.0) || !believable(piece.coefficients)) return false;
-  double position = 0.0, velocity = 0.0, acceleration = 0.0;
-  for (int k = 5; k >= 0; --k) {
-    const double size = piece.coefficients.row(k).cwiseAbs().maxCoeff();
-    position = position * piece.duration + size;
-    if (k >= 1) velocity = velocity * piece.duration + k * size;
-    if (k >= 2) acceleration = acceleration * piece.duration + k * (k - 1) * size;
-  }
-  return believable(position) && believable(velocity) && believable(acceleration);
-}
-
-bool usable(const HeadingProfile& heading) {
-  const HeadingPhases phases = heading.phases();
-  return std::isfinite(phases.start_time) && believable(phases.initial_heading) &&
-         believable(phases.initial_rate) && believable(phases.cruise_rate) &&
-         believable(heading.turn_duration());
-}
-
-/// From its start to its end, at any time that anybody may ask for.
-bool usable(const Trajectory& trajectory) {
-  if (!std::isfinite(trajectory.start_time()) || !usable(trajectory.heading())) return false;
-  for (int k = 0; k < trajectory.piece_count(); ++k) {
-    if (!usable(trajectory.piece(k))) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 PeerTable::PeerTable(int own_id, const PeerTableParameters& parameters)
     : own_id_{own_id}, parameters_{validated(parameters)} {}
 
-MessageVerdict PeerTable::receive(const TrajectoryMessage& message, double now) {
-  MessageVerdict verdict = judge(message, now);
+MessageVerdict PeerTable::receive(const HeardMessage& heard, double now) {
+  const TrajectoryMessage& message = heard;
+  MessageVerdict verdict = judge(heard, now);
   const bool believed = verdict == MessageVerdict::accepted;
   if (believed && entries_.count(message.robot_id) == 0 && !make_room(now)) verdict = MessageVerdict::crowded;
   ++counts_[static_cast<std::size_t>(verdict)];
@@ -62,13 +29,14 @@ MessageVerdict PeerTable::receive(const TrajectoryMessage& message, double now) 
   peer.received_time = now;
   peer.expired = false;
   peer.growth = 0.0;
-  peer.trajectory = message.trajectory;
+  peer.trajectory = heard.trajectory();
   return verdict;
 }
 
-MessageVerdict PeerTable::judge(const TrajectoryMessage& message, double now) const {
+MessageVerdict PeerTable::judge(const HeardMessage& heard, double now) const {
+  const TrajectoryMessage& message = heard;
   if (message.robot_id == own_id_) return MessageVerdict::own;
-  if (!well_formed(message, now)) return MessageVerdict::malformed;
+  if (!heard.usable() || !well_formed(message, now)) return MessageVerdict::malformed;
   const auto place = entries_.find(message.robot_id);
   if (place == entries_.end() || now > place->second.expiry_time) return MessageVerdict::accepted;
   const Entry& known = place->second;
@@ -83,7 +51,7 @@ bool PeerTable::well_formed(const TrajectoryMessage& message, double now) const 
                        std::isfinite(message.expiry_time) && message.radius > 0.0 &&
                        message.radius <= parameters_.largest_radius && message.position_sigma >= 0.0 &&
                        believable(message.position_sigma);
-  if (!numbers || message.trajectory.empty() || !usable(message.trajectory)) return false;
+  if (!numbers) return false;
   const double latest = now + parameters_.clock_tolerance;
   return message.sent_time <= latest && message.trajectory.start_time() <= latest &&
          message.sent_time >= now - parameters_.oldest_message && message.expiry_time >= message.sent_time;
@@ -115,7 +83,7 @@ const std::vector<Peer>& PeerTable::peers(double now) {
       peer.expired = true;
       constexpr double kLong = 1.0;  // [s] any duration will do: a trajectory stands at its ends
       peer.trajectory =
-          Trajectory::standing(peer.trajectory.position(entry.expiry_time), entry.expiry_time, kLong);
+          Trajectory::standing(peer.trajectory->position(entry.expiry_time), entry.expiry_time, kLong);
     }
     if (peer.expired) {
       peer.growth = std::min(parameters_.growth_rate * (now - entry.expiry_time), parameters_.largest_growth);

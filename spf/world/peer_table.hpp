@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "spf/math/parameters.hpp"
+#include "spf/world/heard_message.hpp"
 #include "spf/world/peer.hpp"
-#include "spf/world/trajectory_message.hpp"
 
 namespace spf {
 
@@ -66,11 +66,13 @@ class PeerTable {
   /// Checks a message and, when good, makes it what is known of its sender. `now` [s] is the time of arrival.
   /// A sender that has been silent long enough to expire may start its sequence afresh (it was restarted). In
   /// a full table a new sender takes the place of the one that expired first.
-  MessageVerdict receive(const TrajectoryMessage& message, double now);
+  MessageVerdict receive(const HeardMessage& heard, double now);
 
   /// Everybody known at this time, sorted by robot_id; drops who is forgotten. The reference holds until the
   /// next call.
   const std::vector<Peer>& peers(double now);
+  /// What that returned last.
+  [[nodiscard]] const std::vector<Peer>& last_peers() const { return peers_; }
 
   /// How many messages got this verdict.
   [[nodiscard]] std::uint64_t count(MessageVerdict verdict) const {
@@ -84,7 +86,7 @@ class PeerTable {
     double expiry_time = 0.0;  // [s] as the message said, at most `silence` after its arrival
   };
 
-  [[nodiscard]] MessageVerdict judge(const TrajectoryMessage& message, double now) const;
+  [[nodiscard]] MessageVerdict judge(const HeardMessage& heard, double now) const;
   [[nodiscard]] bool well_formed(const TrajectoryMessage& message, double now) const;
   [[nodiscard]] bool make_room(double now);
 

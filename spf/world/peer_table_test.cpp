@@ -211,7 +211,7 @@ TEST(PeerTable, WhatItBelievesCanBeReckonedWith) {
     ++accepted;
     const Peer peer = table.peers(0.0).front();
     for (const double time : {-1e300, -1.0, 0.0, 0.3, 1.0, 5.0, 1e3, 1e8, 1e300}) {
-      const FlatState state = peer.trajectory.state(time);
+      const FlatState state = peer.trajectory->state(time);
       ASSERT_TRUE(std::isfinite(state.position_world.squaredNorm() * state.velocity_world.squaredNorm() *
                                 state.acceleration_world.squaredNorm()));
     }

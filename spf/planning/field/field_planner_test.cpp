@@ -294,8 +294,9 @@ TEST(FieldPlanner, YieldsToAPeerOfHigherPriorityOnly) {
     piece.duration = 8.0;
     piece.coefficients.row(0) = Eigen::RowVector2d{4.0, 0.1};
     piece.coefficients.row(1) = Eigen::RowVector2d{-1.0, 0.0};
-    peer.trajectory = Trajectory{10.0};
-    peer.trajectory.append(piece);
+    Trajectory course{10.0};
+    course.append(piece);
+    peer.trajectory = course;
     scene.peers.push_back(peer);
     scene.finish({-3.5, 0.0}, {4.0, 0.0}, 3);
     FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
@@ -305,7 +306,7 @@ TEST(FieldPlanner, YieldsToAPeerOfHigherPriorityOnly) {
     double least = 1e9;
     for (double ahead = 0.0; ahead < 5.0; ahead += 0.01)
       least = std::min(
-          least, (result.trajectory.position(10.0 + ahead) - peer.trajectory.position(10.0 + ahead)).norm());
+          least, (result.trajectory.position(10.0 + ahead) - peer.trajectory->position(10.0 + ahead)).norm());
     if (peer_id == 0) {
       EXPECT_GT(least, 0.64);
     } else {
@@ -378,8 +379,9 @@ TEST(FieldPlanner, BrakesWhenThereIsNoSafePlan) {
   piece.duration = 8.0;
   piece.coefficients.row(0) = Eigen::RowVector2d{4.0, 0.0};
   piece.coefficients.row(1) = Eigen::RowVector2d{-1.0, 0.0};
-  peer.trajectory = Trajectory{10.0};
-  peer.trajectory.append(piece);
+  Trajectory course{10.0};
+  course.append(piece);
+  peer.trajectory = course;
   scene.peers.push_back(peer);
   scene.finish({-0.5, 0.0}, {5.0, 0.0});
   scene.map->add_box({-15.0, 0.5}, {15.0, 2.0});
@@ -465,8 +467,9 @@ void draw_crowd(RandomStream& random, Scene& scene) {
     piece.duration = 5.0;
     piece.coefficients.row(0) = draw_place(random, 9.0).transpose();
     if (peer.state == PeerState::moving) piece.coefficients.row(1) = 0.6 * random.normal2().transpose();
-    peer.trajectory = Trajectory{9.0};
-    peer.trajectory.append(piece);
+    Trajectory course{9.0};
+    course.append(piece);
+    peer.trajectory = course;
     scene.peers.push_back(peer);
   }
   scene.finish(start, goal, 4);

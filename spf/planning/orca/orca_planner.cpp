@@ -271,7 +271,7 @@ void OrcaPlanner::collect_neighbours(const PlanRequest& request) {
   const double time = request.time;
   if (request.world.peers != nullptr) {
     for (const Peer& peer : *request.world.peers) {
-      if (peer.trajectory.empty()) continue;
+      if (peer.trajectory->empty()) continue;
       Neighbour neighbour;
       // Who moves shares the work; who has stopped, brakes or fell silent does not.
       const bool shares = peer.state == PeerState::moving && !peer.expired;

@@ -37,8 +37,9 @@ struct Scene {
     piece.duration = 5.0;
     piece.coefficients.row(0) << 2.0, 1.5;
     piece.coefficients.row(1) << 0.1, -0.5;
-    peer.trajectory = Trajectory{kStart - 0.2};
-    peer.trajectory.append(piece);
+    Trajectory course{kStart - 0.2};
+    course.append(piece);
+    peer.trajectory = course;
     peers.push_back(peer);
     PlanRequest request;
     request.time = kStart;

@@ -14,8 +14,8 @@ namespace spf {
 
 class SpaceTimePlanner final : public Planner {
  public:
-  /// Throws std::invalid_argument when parameters are out of range. All memory is allocated here.
-  /// `planner` holds the optimiser's settings and weights.
+  /// Throws std::invalid_argument when parameters are out of range. Plans allocate only when more comes near
+  /// than ever before. `planner` holds the optimiser's settings and weights.
   SpaceTimePlanner(const SpaceTimeParameters& parameters, const PlannerParameters& planner,
                    const RobotParameters& robot);
 

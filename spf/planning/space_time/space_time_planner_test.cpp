@@ -52,8 +52,9 @@ class SpaceTimePlannerTest : public ::testing::Test {
     piece.duration = 20.0;
     piece.coefficients.row(0) = position.transpose();
     piece.coefficients.row(1) = velocity.transpose();
-    peer.trajectory = Trajectory{kTime};
-    peer.trajectory.append(piece);
+    Trajectory course{kTime};
+    course.append(piece);
+    peer.trajectory = course;
     peers.push_back(peer);
   }
   /// Drives the plans, one every 0.1 s, while everything moves on as told; the least gap between surfaces
@@ -288,8 +289,9 @@ class RandomRequests {
     piece.duration = random_.uniform(0.1, 6.0);
     piece.coefficients.row(0) = (robot + 2.0 * random_.normal2()).transpose();
     piece.coefficients.row(1) = number() * random_.normal2().transpose();
-    peer.trajectory = Trajectory{kTime - 0.3};
-    peer.trajectory.append(piece);
+    Trajectory course{kTime - 0.3};
+    course.append(piece);
+    peer.trajectory = course;
     return peer;
   }
   /// Mostly about 1; sometimes nothing, sometimes absurd.

@@ -27,7 +27,6 @@ SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot
     fading_[at] = std::exp(-k * parameters.step / parameters.risk_fading);
     peer_fading_[at] = std::exp(-k * parameters.step / parameters.peer_risk_fading);
   }
-  entities_.resize(kMaxEntities);
   order_.reserve(256);
 }
 
@@ -67,7 +66,9 @@ void SpaceTimeRisk::prepare(const PlanRequest& request) {
 }
 
 SpaceTimeRisk::Entity* SpaceTimeRisk::next_entity() {
-  return &entities_[static_cast<std::size_t>(entity_count_++)];
+  const auto next = static_cast<std::size_t>(entity_count_++);
+  if (next == entities_.size()) entities_.emplace_back();
+  return &entities_[next];
 }
 
 void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& track) {
