@@ -180,7 +180,7 @@ Verb add_run(CLI::App& program, const MethodTable& methods) {
   app->add_option("--trials", options->trials,
                   "repeat over this many trials; a family draws a new scene for each")
       ->type_name("N")
-      ->check(CLI::Range(1, 10'000'000));
+      ->check(CLI::Range(1, kMostTrials));
   app->add_option("--first", options->first, "number of the first trial (default 0)")
       ->type_name("K")
       ->check(CLI::Range(0, 1'000'000'000));

@@ -24,7 +24,7 @@ bool lies_within(std::string_view inner, std::string_view outer) {
 }  // namespace
 
 void InputProblems::add(const SourcePlace& place, std::string sentence, std::string key) {
-  if (kept_.size() == kMostProblems)
+  if (full())
     ++left_out_;
   else
     kept_.push_back({place, std::move(sentence), std::move(key)});

@@ -34,6 +34,8 @@ class InputProblems {
   void add(const SourcePlace& place, std::string sentence, std::string key = {});
   /// Was the value at a key path refused, or what it is part of, or a part of it?
   [[nodiscard]] bool refuses(std::string_view key) const;
+  /// Whatever is added now is only counted.
+  [[nodiscard]] bool full() const { return kept_.size() == kMostProblems; }
   [[nodiscard]] bool empty() const { return kept_.empty(); }
   [[nodiscard]] const std::vector<InputProblem>& kept() const { return kept_; }
   [[nodiscard]] std::size_t left_out() const { return left_out_; }

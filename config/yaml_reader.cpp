@@ -161,7 +161,8 @@ std::optional<std::size_t> read_name(const ReadTarget& target, const std::vector
   if (target.node.kind == YamlKind::scalar)
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i] == text) return i;
-  const std::optional<std::string> meant = closest_name(text, names);
+  // Nobody reads the hint of a problem that is only counted.
+  const std::optional<std::string> meant = target.problems.full() ? std::nullopt : closest_name(text, names);
   target.refuse("must be one of " + listed(names) + (meant ? "; did you mean " + *meant + "?" : ""));
   return std::nullopt;
 }
@@ -173,8 +174,16 @@ const YamlNode* FieldReader::take(const char* name) {
 
 const YamlNode* FieldReader::take_list(const char* name) {
   const YamlNode* node = take(name);
-  if (node == nullptr || node->kind == YamlKind::list) return node;
-  ReadTarget{*node, prefix_ + name, problems_}.refuse("must be a list");
+  if (node == nullptr) return nullptr;
+  const ReadTarget target{*node, prefix_ + name, problems_};
+  if (node->kind != YamlKind::list) {
+    target.refuse("must be a list");
+  } else if (node->items.size() > kMostEntries) {
+    target.refuse("has " + std::to_string(node->items.size()) + " entries: must have at most " +
+                  std::to_string(kMostEntries));
+  } else {
+    return node;
+  }
   return nullptr;
 }
 
@@ -185,6 +194,10 @@ void FieldReader::required(const char* name) {
 void FieldReader::finish() {
   for (const YamlEntry& entry : map_.entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    if (problems_.full()) {  // nobody reads more hints
+      problems_.add(entry.key_place, "");
+      continue;
+    }
     std::optional<std::string> meant = closest_name(entry.key, known_);
     if (meant) meant = prefix_ + *meant;
     if (!meant)  // perhaps the key of another group

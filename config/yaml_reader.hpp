@@ -27,6 +27,9 @@
 
 namespace spf {
 
+/// Longer lists are refused.
+inline constexpr std::size_t kMostEntries = 10'000;
+
 /// What a value is read for: its full key and where problems go.
 struct ReadTarget {
   const YamlNode& node;

@@ -27,6 +27,10 @@ std::string hash_text(const std::string& text) {
   return hexadecimal(hash);
 }
 
+// Limits of what one file may ask for: far above any sensible campaign.
+constexpr std::size_t kMostCombinations = 100'000;  // of the lists, before conditions choose their methods
+constexpr std::size_t kMostFailed = 100;            // cells that cannot run
+
 /// Where the scenes of a cell come from, and what they are called.
 struct SceneSource {
   std::string name;
@@ -54,6 +58,8 @@ class CellMaker {
         problems_{problems} {}
 
   std::vector<Cell> make() {
+    check_sizes();
+    if (!problems_.empty()) return {};
     const std::vector<SceneSource> scenes = scene_sources();
     const std::vector<Contender> contenders = all_contenders();
     check_names(contenders);
@@ -65,7 +71,11 @@ class CellMaker {
       if (runs(choice)) add(choice);
     }
     if (cells_.empty() && problems_.empty()) problems_.add(root_.place, "leaves no cell to run");
+    if (asked_ > kMostCells)
+      problems_.add(root_.place, "asks for " + std::to_string(asked_) + " cells: must be at most " +
+                                     std::to_string(kMostCells) + " (" + kAxes + ")");
     refuse_duplicates();
+    check_trials();
     return std::move(cells_);
   }
 
@@ -86,6 +96,40 @@ class CellMaker {
   template <class Axis>
   static std::size_t size_of(const Axis& axis) {
     return std::max<std::size_t>(axis.size(), 1);
+  }
+
+  static constexpr const char* kAxes = "conditions x scenes x noise x levels x tracking x methods";
+
+  /// Before anything is made of the lists: how much work they may ask for.
+  void check_sizes() {
+    constexpr std::size_t kMostSettings = 100;  // of one list
+    double combinations = 2.0;
+    for (const std::size_t size :
+         {size_of(campaign_.conditions), campaign_.families.size() + campaign_.scenarios.size(),
+          size_of(campaign_.noise), size_of(campaign_.levels),
+          campaign_.methods.size() + campaign_.variants.size()})
+      combinations *= static_cast<double>(std::max<std::size_t>(size, 1));
+    if (combinations > static_cast<double>(kMostCombinations))
+      problems_.add(root_.place, "has " + to_text(combinations) + " combinations: must be at most " +
+                                     std::to_string(kMostCombinations) + " (" + kAxes + ")");
+    const auto check_set = [&](const std::string& path, const std::vector<std::string>& list) {
+      if (list.size() > kMostSettings)
+        refuse(path, "has " + std::to_string(list.size()) + " settings: must be at most " +
+                         std::to_string(kMostSettings));
+    };
+    check_set("set", campaign_.set);
+    for (std::size_t i = 0; i < campaign_.variants.size(); ++i)
+      check_set("variants[" + std::to_string(i) + "].set", campaign_.variants[i].set);
+    for (std::size_t i = 0; i < campaign_.conditions.size(); ++i)
+      check_set("conditions[" + std::to_string(i) + "].set", campaign_.conditions[i].set);
+  }
+
+  void check_trials() {
+    const std::int64_t all =
+        static_cast<std::int64_t>(cells_.size()) * static_cast<std::int64_t>(campaign_.trials);
+    if (all > kMostTrials)
+      refuse("trials", "makes " + std::to_string(all) + " trials of " + std::to_string(cells_.size()) +
+                           " cells: must be at most " + std::to_string(kMostTrials) + " in all");
   }
 
   /// Entry `index` of the product of all axes, of which the last runs fastest.
@@ -170,7 +214,8 @@ class CellMaker {
         refuse(path + ".name", "is the name of another condition");
     for (std::size_t i = 0; i < condition.methods.size(); ++i) {
       if (std::find(names.begin(), names.end(), condition.methods[i]) != names.end()) continue;
-      const std::optional<std::string> meant = closest_name(condition.methods[i], names);
+      const std::optional<std::string> meant =
+          problems_.full() ? std::nullopt : closest_name(condition.methods[i], names);
       refuse(path + ".methods[" + std::to_string(i) + "]",
              "is no method or variant of this campaign" + (meant ? "; did you mean " + *meant + "?" : ""));
     }
@@ -216,6 +261,7 @@ class CellMaker {
   }
 
   void add(const Choice& choice) {
+    if (++asked_ > kMostCells || failed_ == kMostFailed) return;
     try {
       const std::vector<Setting> settings = settings_of(choice);
       Cell cell = cell_of(choice.scene->file.empty() ? study_from_text("family: " + choice.scene->name + "\n",
@@ -228,6 +274,9 @@ class CellMaker {
       if (!problem.empty() && told_.insert(problem).second) refuse("trials", problem);
       cells_.push_back(std::move(cell));
     } catch (const InputError& error) {
+      if (++failed_ == kMostFailed)
+        problems_.add(root_.place,
+                      std::to_string(failed_) + " cells cannot run; further ones were not looked at");
       for (const InputProblem& problem : error.problems().kept())
         if (told_.insert(to_string(problem.place) + problem.sentence).second)
           problems_.add(problem.place, problem.sentence);
@@ -248,6 +297,8 @@ class CellMaker {
   const MethodTable& known_;
   InputProblems& problems_;
   std::vector<Cell> cells_;
+  std::size_t asked_ = 0;   // cells that the file names
+  std::size_t failed_ = 0;  // of them
   std::set<std::string> told_;
 };
 

@@ -114,6 +114,10 @@ struct Cell {
   std::string setup;  ///< hash of the study: equal for equal trials
 };
 
+/// A campaign has at most so many cells, and so many trials in all of them.
+inline constexpr std::size_t kMostCells = 2'000;
+inline constexpr int kMostTrials = 1'000'000;
+
 struct CampaignPlan {
   Campaign campaign;
   std::vector<Cell> cells;  ///< at least one
@@ -124,8 +128,9 @@ struct CampaignPlan {
 /// The campaign of a single study: trials `first` to `first + trials - 1` of one cell.
 [[nodiscard]] CampaignPlan single_cell(Study study, int first, int trials);
 
-/// Reads a campaign file. `settings` are written over its own keys, `scene_settings` over every scenario's.
-/// `known` are the methods that it may name. Throws InputError with every problem.
+/// Reads a campaign file of at most kMostCells and kMostTrials. `settings` are written over its own keys,
+/// `scene_settings` over every scenario's; `known` are the methods that it may name. Throws InputError with
+/// every problem.
 [[nodiscard]] CampaignPlan read_campaign(const std::string& path, const std::vector<Setting>& settings = {},
                                          const std::vector<Setting>& scene_settings = {},
                                          const MethodTable& known = {});

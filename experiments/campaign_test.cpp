@@ -13,6 +13,8 @@
 namespace spf {
 namespace {
 
+using testing::HasSubstr;
+
 CampaignPlan plan_of(const std::string& text) {
   return campaign_from_text("name: test\nfamilies: [t2]\n" + text, "test.yaml", ".");
 }
@@ -77,6 +79,44 @@ TEST(Campaign, WritesItselfSoThatItReadsBack) {
   EXPECT_EQ(to_yaml_text(again.campaign), to_yaml_text(plan.campaign));
   ASSERT_EQ(again.cells.size(), 1u);
   EXPECT_EQ(again.cells[0].setup, plan.cells[0].setup);
+}
+
+/// Why a campaign is refused.
+std::string refusal(const std::string& text) {
+  try {
+    static_cast<void>(plan_of(text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string numbers(const std::string& key, int count) {
+  std::string text = key + ": [0";
+  for (int i = 1; i < count; ++i) text += ", " + std::to_string(0.001 * i);
+  return text + "]\n";
+}
+
+TEST(Campaign, RefusesMoreCellsAndTrialsThanAnybodyRuns) {
+  std::string conditions = "conditions:\n";
+  for (int i = 0; i < 1000; ++i) conditions += "  - {name: c" + std::to_string(i) + "}\n";
+  EXPECT_THAT(refusal(conditions + numbers("levels", 2000) + "noise: [white, walk]\n"),
+              HasSubstr("has 8000000 combinations: must be at most 100000 (conditions x scenes x noise x"));
+  EXPECT_THAT(refusal(numbers("levels", 2001)), HasSubstr("asks for 2001 cells: must be at most 2000"));
+  EXPECT_THAT(refusal("trials: 10000000\n"),
+              HasSubstr("test.yaml:3:9: trials = 10000000 makes 10000000 trials of 1 cells: must be at most "
+                        "1000000 in all"));
+  EXPECT_THAT(refusal("trials: 600000\nmethods: [orca, es2]\n"),
+              HasSubstr("makes 1200000 trials of 2 cells"));
+  EXPECT_EQ(refusal("trials: 1000000\n"), "");
+  std::string settings = "set: [sensing.range=5";
+  for (int i = 0; i < 100; ++i) settings += ", sensing.range=5";
+  EXPECT_THAT(refusal(settings + "]\n"), HasSubstr("set has 101 settings: must be at most 100"));
+}
+
+TEST(Campaign, LooksAtAHundredCellsThatCannotRunAndNoMore) {
+  const std::string found = refusal(numbers("levels", 1000) + "set: [robots=3000, layout.squares=200]\n");
+  EXPECT_THAT(found, HasSubstr("100 cells cannot run; further ones were not looked at"));
 }
 
 TEST(CampaignPresets, AreGoodAndHaveThePapersRows) {

@@ -336,10 +336,21 @@ FamilySetup family_setup(Family family) {
   return setup;
 }
 
+namespace {
+
+/// A hopeless layout ends with its message in seconds, however many robots and shapes it asks for.
+int attempts_for(const LayoutParameters& layout) {
+  constexpr int kMostThings = 200'000;  // drawn in all attempts together
+  return std::clamp(kMostThings / (layout.robots + layout.squares + layout.discs + 1), 20, kMaxAttempts);
+}
+
+}  // namespace
+
 Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) {
   const FamilySetup checked = validated(setup);
   const std::uint64_t trial_seed = mix(seed, static_cast<std::uint64_t>(trial));
-  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+  const int attempts = attempts_for(checked.layout);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     Scenario scenario;
     scenario.family = enum_name(checked.family);
     scenario.trial = trial;
@@ -356,7 +367,7 @@ Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) 
     return scenario;
   }
   throw std::runtime_error{"no scene of family " + std::string{enum_name(checked.family)} + " found in " +
-                           std::to_string(kMaxAttempts) + " attempts: too many shapes for the place"};
+                           std::to_string(attempts) + " attempts: too many shapes for the place"};
 }
 
 }  // namespace spf::sim

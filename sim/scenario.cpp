@@ -42,6 +42,30 @@ class Report {
   std::vector<ScenarioProblem> found_;
 };
 
+/// What stands in the way of one place: the first of them is told, the others are counted, so that the
+/// problems of a scene are no more than its entries.
+class FirstOfMany {
+ public:
+  void add(double distance, const char* list, std::size_t index) {
+    if (count_++ > 0) return;
+    distance_ = distance;
+    list_ = list;
+    index_ = index;
+  }
+  [[nodiscard]] bool any() const { return count_ > 0; }
+  [[nodiscard]] double distance() const { return distance_; }
+  [[nodiscard]] std::string name() const { return entry(list_, index_); }
+  [[nodiscard]] std::string and_more() const {
+    return count_ < 2 ? "" : " (and " + std::to_string(count_ - 1) + " more)";
+  }
+
+ private:
+  std::size_t count_ = 0;
+  double distance_ = 0.0;  // [m]
+  const char* list_ = "";
+  std::size_t index_ = 0;
+};
+
 void check_box(Report& report, const std::string& where, const Box& box) {
   report.require_finite(where, box.low);
   report.require_finite(where, box.high);
@@ -84,17 +108,29 @@ void check_place(Report& report, const std::string& where, const Eigen::Vector2d
   const double radius = scenario.robot.radius;
   if (scenario.border && depth_inside(place, *scenario.border) < radius)
     report.add_point(where, place, "must lie inside the border by the radius ", radius, " m");
-  const auto require_gap = [&](const std::string& what, double distance) {
-    if (distance < radius)
-      report.add(where, "is ", distance, " m from ", what, ", less than the radius ", radius, " m").other =
-          what;
+  FirstOfMany inside;
+  const auto require_gap = [&](const char* list, std::size_t index, double distance) {
+    if (distance < radius) inside.add(distance, list, index);
   };
   for (std::size_t i = 0; i < scenario.boxes.size(); ++i)
-    require_gap(entry("boxes", i), distance_to_box(place, scenario.boxes[i]));
+    require_gap("boxes", i, distance_to_box(place, scenario.boxes[i]));
   for (std::size_t i = 0; i < scenario.discs.size(); ++i)
-    require_gap(entry("discs", i), (place - scenario.discs[i].center).norm() - scenario.discs[i].radius);
+    require_gap("discs", i, (place - scenario.discs[i].center).norm() - scenario.discs[i].radius);
   for (std::size_t i = 0; i < scenario.walls.size(); ++i)
-    require_gap(entry("walls", i), distance_to_segment(place, scenario.walls[i]));
+    require_gap("walls", i, distance_to_segment(place, scenario.walls[i]));
+  if (inside.any())
+    report
+        .add(where, "is ", inside.distance(), " m from ", inside.name(), ", less than the radius ", radius,
+             " m", inside.and_more())
+        .other = inside.name();
+}
+
+void report_overlap(Report& report, std::size_t robot, const FirstOfMany& inside) {
+  if (inside.any())
+    report
+        .add(entry("robots", robot, ".start"), "is inside ", inside.name(), ": centres ", inside.distance(),
+             " m apart", inside.and_more())
+        .other = inside.name();
 }
 
 void check_robots(Report& report, const Scenario& scenario) {
@@ -109,30 +145,27 @@ void check_robots(Report& report, const Scenario& scenario) {
     if (task.goal_heading && !std::isfinite(*task.goal_heading))
       report.add(entry("robots", i, ".goal"), "heading must be finite");
     if (!task.start.position_world.allFinite()) continue;
+    FirstOfMany inside;
     for (std::size_t d = 0; d < scenario.moving.size(); ++d) {
       const double gap = (task.start.position_world - scenario.moving[d].position_world).norm();
-      if (gap < scenario.robot.radius + scenario.moving[d].radius)
-        report
-            .add(entry("robots", i, ".start"), "is inside ", entry("moving", d), ": centres ", gap,
-                 " m apart")
-            .other = entry("moving", d);
+      if (gap < scenario.robot.radius + scenario.moving[d].radius) inside.add(gap, "moving", d);
     }
+    report_overlap(report, i, inside);
     starts.push_back(task.start.position_world);
   }
   if (starts.size() != scenario.robots.size()) return;  // not finite: indices below would not fit
   const double sum = 2.0 * scenario.robot.radius;
   UniformGrid grid{std::max(sum, 1e-3)};
   grid.assign(starts);
-  for (std::size_t i = 0; i < starts.size(); ++i)
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    FirstOfMany inside;
     grid.visit(starts[i], sum, [&](int other) {
       const std::size_t j = static_cast<std::size_t>(other);
       const double gap = (starts[i] - starts[j]).norm();
-      if (j < i && gap < sum)
-        report
-            .add(entry("robots", i, ".start"), "is inside ", entry("robots", j), ": centres ", gap,
-                 " m apart")
-            .other = entry("robots", j);
+      if (j < i && gap < sum) inside.add(gap, "robots", j);
     });
+    report_overlap(report, i, inside);
+  }
 }
 
 }  // namespace

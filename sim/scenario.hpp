@@ -80,7 +80,8 @@ struct ScenarioProblem {
 [[nodiscard]] std::string to_text(const ScenarioProblem& problem);
 
 /// Everything that makes the scenario unusable: numbers out of range or not finite, boxes inside out, robots
-/// or goals inside an obstacle, each other or beyond the border. Empty when it can run.
+/// or goals inside an obstacle, each other or beyond the border. Of all that stands in the way of one place
+/// the first is told and the others are counted. Empty when it can run.
 [[nodiscard]] std::vector<ScenarioProblem> problems_of(const Scenario& scenario);
 
 /// Time of the fastest rest-to-rest motion over a straight distance [s]: a trapezoid of speed.

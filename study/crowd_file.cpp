@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <system_error>
 #include <unordered_map>
 #include <vector>
@@ -17,10 +16,12 @@
 namespace spf {
 namespace {
 
-constexpr double kFastest = 15.0;    // [m/s] faster than anybody runs
-constexpr double kFarthest = 1e5;    // [m]
-constexpr double kLatest = 1e7;      // [s]
-constexpr int kLargestId = 999'999;  // ids above are the simulator's own
+constexpr double kFastest = 15.0;  // [m/s] faster than anybody runs
+constexpr double kFarthest = 1e5;  // [m]
+constexpr double kLatest = 1e7;    // [s]
+constexpr std::size_t kMostColumns = 100;
+constexpr std::size_t kLongestShown = 60;  // bytes of a value in a message
+constexpr int kLargestId = 999'999;        // ids above are the simulator's own
 constexpr std::array<const char*, 4> kColumns{"t_s", "agent_id", "x_m", "y_m"};
 enum Column : std::size_t { kTime, kId, kX, kY };
 
@@ -31,12 +32,17 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-std::vector<std::string_view> fields_of(std::string_view line) {
+std::string shown(std::string_view text) {
+  return std::string{text.substr(0, kLongestShown)} + (text.size() > kLongestShown ? "..." : "");
+}
+
+/// At most `most` of them, and one more when there are more.
+std::vector<std::string_view> fields_of(std::string_view line, std::size_t most) {
   std::vector<std::string_view> fields;
   while (true) {
     const std::size_t comma = line.find(',');
     fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
+    if (comma == std::string_view::npos || fields.size() > most) return fields;
     line.remove_prefix(comma + 1);
   }
 }
@@ -50,8 +56,9 @@ class CrowdReader {
   bool header(std::string_view line) {
     ++line_;
     if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
-    const std::vector<std::string_view> names = fields_of(line);
-    bool complete = true;
+    const std::vector<std::string_view> names = fields_of(line, kMostColumns);
+    bool complete = names.size() <= kMostColumns;
+    if (!complete) refuse("names more than " + std::to_string(kMostColumns) + " columns");
     for (std::size_t column = 0; column < kColumns.size(); ++column) {
       const auto found = std::find(names.begin(), names.end(), kColumns[column]);
       place_[column] = static_cast<std::size_t>(found - names.begin());
@@ -67,10 +74,11 @@ class CrowdReader {
   void sample(std::string_view line) {
     ++line_;
     if (trimmed(line).empty()) return;
-    const std::vector<std::string_view> fields = fields_of(line);
+    const std::vector<std::string_view> fields = fields_of(line, columns_);
     if (fields.size() != columns_)
-      return refuse("has " + std::to_string(fields.size()) + " values, but the first line names " +
-                    std::to_string(columns_) + " columns");
+      return refuse("has " +
+                    (fields.size() > columns_ ? std::string{"more"} : std::to_string(fields.size())) +
+                    " values, but the first line names " + std::to_string(columns_) + " columns");
     const auto field = [&](Column column) { return fields[place_[column]]; };
     const std::optional<double> time = number(kTime, field(kTime), "s", kLatest);
     const std::optional<double> x = number(kX, field(kX), "m", kFarthest);
@@ -93,7 +101,7 @@ class CrowdReader {
   std::optional<double> number(Column column, std::string_view text, const char* unit, double limit) {
     double value = 0.0;
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const std::string key = std::string{kColumns[column]} + " = " + std::string{text};
+    const std::string key = std::string{kColumns[column]} + " = " + shown(text);
     if (text.empty() || rest != text.data() + text.size() || error == std::errc::invalid_argument)
       refuse(key + " must be a number in " + unit);
     else if (!(std::abs(value) <= limit) || error != std::errc{})
@@ -109,8 +117,8 @@ class CrowdReader {
     if (!text.empty() && error == std::errc{} && rest == text.data() + text.size() && value >= 0 &&
         value <= kLargestId)
       return value;
-    refuse("agent_id = " + std::string{text} + " must be a whole number in [0, " +
-           std::to_string(kLargestId) + "]");
+    refuse("agent_id = " + shown(text) + " must be a whole number in [0, " + std::to_string(kLargestId) +
+           "]");
     return std::nullopt;
   }
 
@@ -151,7 +159,7 @@ std::shared_ptr<const sim::CrowdRecording> crowd_from_text(std::string_view text
   InputProblems found;
   CrowdReader reader{name, found};
   bool first = true;
-  while (!text.empty()) {
+  while (!text.empty() && !found.full()) {  // nobody reads of more lines
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -173,7 +181,7 @@ std::shared_ptr<const sim::CrowdRecording> crowd_from_text(std::string_view text
 std::shared_ptr<const sim::CrowdRecording> read_crowd_file(const std::string& path,
                                                            const SourcePlace& asked_at,
                                                            InputProblems& problems) {
-  constexpr std::uintmax_t kMostBytes = 512u << 20;
+  constexpr std::uintmax_t kMostBytes = 128u << 20;
   const auto refuse = [&](const std::string& why) {
     problems.add(asked_at, "crowd = " + path + " " + why);
     return nullptr;
@@ -188,10 +196,10 @@ std::shared_ptr<const sim::CrowdRecording> read_crowd_file(const std::string& pa
   if (!error && size > kMostBytes)
     return refuse("is larger than " + std::to_string(kMostBytes >> 20) + " MiB");
   std::ifstream file{path, std::ios::binary};
-  std::ostringstream text;
-  if (file && size > 0) text << file.rdbuf();
-  if (!file) return refuse("cannot be opened for reading");
-  return crowd_from_text(text.str(), path, problems);
+  std::string text(error ? 0 : static_cast<std::size_t>(size), '\0');
+  if (file) file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (error || !file) return refuse("cannot be opened for reading");
+  return crowd_from_text(text, path, problems);
 }
 
 std::string crowd_text(const std::vector<sim::CrowdSample>& samples) {

@@ -76,15 +76,24 @@ std::string entry(const char* list, std::size_t index, const char* member) {
 std::vector<sim::ScenarioProblem> more_problems_of(const sim::Scenario& scenario) {
   std::vector<sim::ScenarioProblem> found;
   const double sum = 2.0 * scenario.robot.radius;
-  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    std::string first, nearest;  // of the goals that are too near; the others are counted
+    std::size_t others = 0;
     for (std::size_t j = 0; j < i; ++j) {
       const double gap = (scenario.robots[i].goal_world - scenario.robots[j].goal_world).norm();
-      if (gap < sum)
-        found.push_back({entry("robots", i, ".goal"),
-                         "is " + to_text(gap) + " m from " + entry("robots", j, ".goal") +
-                             ", less than two radii, " + to_text(sum) + " m",
-                         "", entry("robots", j, ".goal")});
+      if (!(gap < sum)) continue;
+      if (first.empty()) {
+        nearest = entry("robots", j, ".goal");
+        first = "is " + to_text(gap) + " m from " + entry("robots", j, ".goal") + ", less than two radii, " +
+                to_text(sum) + " m";
+      } else {
+        ++others;
+      }
     }
+    if (others > 0) first += " (and " + std::to_string(others) + " more)";
+    if (!first.empty())
+      found.push_back({entry("robots", i, ".goal"), std::move(first), "", std::move(nearest)});
+  }
   for (std::size_t i = 0; i < scenario.moving.size() && scenario.border; ++i) {
     const ObstacleState& disc = scenario.moving[i];
     const double depth = std::min((disc.position_world - scenario.border->low).minCoeff(),

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -205,6 +206,51 @@ TEST(ScenarioFile, SaysWhenAFamilyHasNoRoom) {
   EXPECT_THAT(robots, testing::Not(HasSubstr("\n")));
   EXPECT_THAT(report("family: t2\nlayout: {squares: 200}"),
               testing::StartsWith("file.yaml:1:9: family = t2 cannot be drawn: no scene"));
+}
+
+/// How many lines a report has, and how many problems beyond them it counts.
+std::pair<std::size_t, std::string> size_of(const std::string& text) {
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+  return {lines, text.substr(text.rfind('\n') + 1)};
+}
+
+TEST(ScenarioFile, TellsOfManyRobotsInOnePlaceInFewWords) {
+  std::string text = "family: explicit\nrobots:\n";
+  for (int i = 0; i < 2000; ++i) text += "  - {start: [0, 0], goal: [2, 0]}\n";
+  const std::string found = report(text);
+  // One for each start and goal but the first, of which a hundred are told.
+  const auto [lines, last] = size_of(found);
+  EXPECT_EQ(lines, InputProblems::kMostProblems + 1);
+  EXPECT_EQ(last, "(and 3898 more)");
+  EXPECT_LT(found.size(), 20000u);
+  EXPECT_THAT(found,
+              HasSubstr("file.yaml:4:13: robots[1].start = [0, 0] is inside robots[0]: centres 0 m apart\n"));
+  EXPECT_THAT(found, HasSubstr("robots[100].start = [0, 0] is inside robots["));
+  EXPECT_THAT(found, HasSubstr(": centres 0 m apart (and 99 more)\n"));
+}
+
+TEST(ScenarioFile, ProblemsAreNoMoreThanEntriesWhateverStandsInTheWay) {
+  std::string text = "family: explicit\nrobots:\n";
+  for (int i = 0; i < 50; ++i)
+    text += "  - {start: [" + std::to_string(i) + ", 0], goal: [" + std::to_string(i) + ", 9]}\n";
+  text += "boxes:\n";
+  for (int i = 0; i < 300; ++i) text += "  - {low: [-1, -1], high: [60, 60]}\n";
+  text += "moving:\n";
+  for (int i = 0; i < 300; ++i) text += "  - {position: [25, 0], radius: 60}\n";
+  const auto [lines, last] = size_of(report(text));
+  EXPECT_EQ(lines, InputProblems::kMostProblems + 1);
+  EXPECT_EQ(last, "(and 50 more)");  // start and goal in the boxes, start in the discs: 150
+}
+
+TEST(ScenarioFile, RefusesLongerListsThanItLooksThrough) {
+  std::string text = "robots:\n";
+  for (int i = 0; i < 10001; ++i) text += "  - {start: [0, 0], goal: [2, 0]}\n";
+  EXPECT_THAT(report(text), HasSubstr("has 10001 entries: must have at most 10000"));
+}
+
+TEST(ScenarioFile, AHopelessLayoutOfManyIsGivenUpSoon) {
+  const std::string found = report("family: t2\nrobots: 10000\nlayout: {squares: 200}\n");
+  EXPECT_THAT(found, HasSubstr("found in 20 attempts: too many shapes for the place"));
 }
 
 TEST(ScenarioFile, ResolvedFormReadsBackToTheSameStudy) {
