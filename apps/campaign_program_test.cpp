@@ -195,6 +195,38 @@ TEST_F(CampaignProgram, GoesOnOnlyWithItsOwnTrials) {
   EXPECT_EQ(run("report nowhere").status, 2);
 }
 
+TEST_F(CampaignProgram, RefusesATrialThatIsToldTwiceInTwoWays) {
+  ASSERT_EQ(run("experiment small.yaml --trials 1 --out one").status, 0);
+  const fs::path log = folder_ / "one" / "trials.jsonl";
+  const std::string whole = text_of(log), first = lines_of(log).front();
+  // The same once more is no contradiction, for either.
+  write("one/trials.jsonl", whole + first + "\n");
+  EXPECT_EQ(run("report one --replays 0").status, 0);
+  EXPECT_EQ(run("experiment small.yaml --trials 1 --out one --resume").status, 0);
+  EXPECT_EQ(text_of(log), whole);
+  Json other = Json::parse(first);
+  other["digest"] = "0123456789abcdef";
+  write("one/trials.jsonl", whole + other.dump() + "\n");
+  for (const char* verb : {"report one --replays 0", "experiment small.yaml --trials 1 --out one --resume"}) {
+    const Finished finished = run(verb);
+    EXPECT_EQ(finished.status, 2) << verb;
+    EXPECT_THAT(finished.error, HasSubstr("tells trial 0 of scene, orca")) << verb;
+    EXPECT_THAT(finished.error, HasSubstr("otherwise than")) << verb;
+  }
+}
+
+TEST_F(CampaignProgram, RefusesForeignLinesAndKeepsTheirFile) {
+  ASSERT_EQ(run("experiment small.yaml --trials 1 --out one").status, 0);
+  const std::string foreign = text_of(folder_ / "one" / "trials.jsonl") + "{\"another\": \"program's\"}\n";
+  write("one/trials.jsonl", foreign);
+  for (const char* verb : {"report one --replays 0", "experiment small.yaml --trials 1 --out one --resume"}) {
+    const Finished finished = run(verb);
+    EXPECT_EQ(finished.status, 2) << verb;
+    EXPECT_THAT(finished.error, HasSubstr("trials.jsonl:9: is no line of trial results: family is missing"));
+  }
+  EXPECT_EQ(text_of(folder_ / "one" / "trials.jsonl"), foreign);
+}
+
 struct BadCampaign {
   std::string text;
   std::string expected;

@@ -64,10 +64,10 @@ class Merger {
             {folder.path.string(), 0, 0},
             "has other settings for " + cell_text(record.key) + " than " + known->second.folder.string()};
       const auto [trial, is_first] =
-          trials_.emplace(name + "#" + std::to_string(record.key.trial), Origin{record.digest, folder.path});
+          trials_.emplace(name + "#" + std::to_string(record.key.trial), Kept{merged_.size(), folder.path});
       if (is_first)
         merged_.push_back(record);
-      else if (trial->second.what != record.digest)
+      else if (!same_result(merged_[trial->second.index], record))
         throw InputError{{folder.path.string(), 0, 0},
                          "tells trial " + std::to_string(record.key.trial) + " of " + cell_text(record.key) +
                              " otherwise than " + trial->second.folder.string() +
@@ -81,7 +81,12 @@ class Merger {
     std::string what;
     fs::path folder;
   };
-  std::map<std::string, Origin> setups_, trials_;
+  struct Kept {
+    std::size_t index;  ///< into merged_
+    fs::path folder;
+  };
+  std::map<std::string, Origin> setups_;
+  std::map<std::string, Kept> trials_;
   std::vector<TrialRecord> merged_;
 };
 

@@ -1,7 +1,9 @@
 #include "experiments/result_row.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -66,12 +68,17 @@ void fill_successes(ResultRow& row, const std::vector<TrialRecord>& trials) {
   row.dynamic_clearance_min = minimum(clearances);
 }
 
+/// Never past what an int holds, whatever files may count.
+void add_up(int& sum, int more) {
+  sum += std::min(more, std::numeric_limits<int>::max() - sum);
+}
+
 void add_crossing(ResultRow& row, const TrialRecord& trial) {
   if (!trial.crossing) return;
   row.crossings += trial.crossing->crossings;
   row.crossings_ok += trial.crossing->crossings_ok;
-  row.contacts_moving += trial.crossing->contacts_moving;
-  row.hits_while_standing += trial.hits_while_standing;
+  add_up(row.contacts_moving, trial.crossing->contacts_moving);
+  add_up(row.hits_while_standing, trial.hits_while_standing);
   row.robot_minutes += trial.crossing->robot_minutes;
 }
 

@@ -1,8 +1,10 @@
 #include "experiments/result_row.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -170,6 +172,123 @@ TEST(TrialRecord, NamesTheLineThatIsBroken) {
       EXPECT_EQ(std::string{error.what()}.rfind("trials.jsonl:7: ", 0), 0u) << error.what();
     }
   }
+}
+
+/// A change of a good line, by a JSON pointer, and how the refusal begins.
+struct BadField {
+  const char* at;
+  const char* value;
+  const char* expected;
+};
+
+TEST(TrialRecord, ChecksEveryField) {
+  nlohmann::json good = nlohmann::json::parse(to_json_line(some_trials()[1]));
+  good["crossings"] = 2;
+  good["crossings_ok"] = 1;
+  good["contacts_moving"] = 0;
+  good["robot_minutes"] = 0.5;
+  good["cause"] = {
+      {"robot", 1}, {"last_plan", "unsafe"}, {"plan_age", 0.1}, {"stand_reason", ""}, {"culprit", -1}};
+  ASSERT_NO_THROW(static_cast<void>(trial_record_from_json(good.dump(), "t", 1)));
+  const BadField table[]{
+      {"/family", "\"\"", "family = \"\" must be text"},
+      {"/method", "7", "method = 7 must be text"},
+      {"/noise", "\"pink\"", "noise = \"pink\" must be one of white, walk"},
+      {"/level", "-1", "level = -1 must be a number in [0, 100]"},
+      {"/level", "null", "level = null must be"},
+      {"/tracking", "\"half\"", "tracking = \"half\" must be one of ideal, full"},
+      {"/seed", "-3", "seed = -3 must be a whole number"},
+      {"/seed", "1.5", "seed = 1.5 must be a whole number"},
+      {"/trial", "-5", "trial = -5 must be a whole number in [0, 2000000000]"},
+      {"/trial", "1e300", "trial = 1e+300 must be a whole number"},
+      {"/trial", "18446744073709551615", "trial = 18446744073709551615 must be"},
+      {"/outcome", "\"banana\"", "outcome = \"banana\" must be one of success, collision, overtime"},
+      {"/robots", "[]", "robots = [...] must be a list of 1 to 10000 values"},
+      {"/robots", "3", "robots = 3 must be a list"},
+      {"/robots/1/arrived", "1", "robots[1].arrived = 1 must be true or false"},
+      {"/robots/0/path_length", "-1", "robots[0].path_length = -1 must be"},
+      {"/robots/0/travel_time", "1e9", "robots[0].travel_time = 1000000000.0 must be"},
+      {"/robots/0/travel_time_ratio", "\"x\"", "robots[0].travel_time_ratio = \"x\" must be"},
+      {"/robots/0/path_length_ratio", "-0.5", "robots[0].path_length_ratio = -0.5 must be"},
+      {"/robots/0/plans", "-1", "robots[0].plans = -1 must be"},
+      {"/robots/0/failed_plans", "1.5", "robots[0].failed_plans = 1.5 must be"},
+      {"/robots/0/optimiser_calls", "1000000000001", "robots[0].optimiser_calls = 1000000000001 must be"},
+      {"/robots/0/inner_iterations", "null", "robots[0].inner_iterations = null must be"},
+      {"/failure", "null", "failure = null must be text"},
+      {"/contact", "3", "contact = 3 must be an object"},
+      {"/contact/time", "-1", "contact.time = -1 must be"},
+      {"/contact/robot", "2", "contact.robot = 2 must be a whole number in [0, 1]"},
+      {"/contact/with", "\"ghost\"", "contact.with = \"ghost\" must be one of disc"},
+      {"/contact/other", "-2", "contact.other = -2 must be"},
+      {"/contact/x", "1e300", "contact.x = 1e+300 must be"},
+      {"/contact/y", "null", "contact.y = null must be"},
+      {"/contact/robot_speed", "-1", "contact.robot_speed = -1 must be"},
+      {"/contact/other_speed", "-1", "contact.other_speed = -1 must be"},
+      {"/contacts", "-1", "contacts = -1 must be"},
+      {"/hits_while_standing", "9999999", "hits_while_standing = 9999999 must be"},
+      {"/sim_time", "null", "sim_time = null must be"},
+      {"/dynamic_distance", "-0.1", "dynamic_distance = -0.1 must be"},
+      {"/dynamic_clearance", "1e300", "dynamic_clearance = 1e+300 must be"},
+      {"/digest", "\"xyz\"", "digest = \"xyz\" must be hexadecimal"},
+      {"/wall_time", "-1", "wall_time = -1 must be"},
+      {"/plan_time/min", "-1", "plan_time.min = -1 must be"},
+      {"/plan_time/max", "0", "plan_time.max = 0 must be"},
+      {"/plan_time/buckets", "{}", "plan_time.buckets = {...} must be a list"},
+      {"/plan_time/buckets/0", "[1]", "plan_time.buckets[0] = [...] must be a list of 2 to 2"},
+      {"/plan_time/buckets/0", "[-1, 1]", "plan_time.buckets[0][0] = -1 must be"},
+      {"/control_time/buckets/0", "[1, 0]", "control_time.buckets[0][1] = 0 must be"},
+      {"/control_time/buckets", "[[1, 600000000000], [2, 600000000000]]",
+       "control_time.buckets[1][1] = 600000000000"},
+      {"/crossings", "3", "crossings = 3 must be a whole number in [0, 2]"},
+      {"/crossings_ok", "3", "crossings_ok = 3 must be a whole number in [0, 2]"},
+      {"/contacts_moving", "-1", "contacts_moving = -1 must be"},
+      {"/robot_minutes", "-1", "robot_minutes = -1 must be"},
+      {"/cause/robot", "5", "cause.robot = 5 must be"},
+      {"/cause/last_plan", "3", "cause.last_plan = 3 must be text"},
+      {"/cause/plan_age", "-1", "cause.plan_age = -1 must be"},
+      {"/cause/stand_reason", "null", "cause.stand_reason = null must be text"},
+      {"/cause/culprit", "-7", "cause.culprit = -7 must be"},
+      {"/setup", "\"no hash\"", "setup = \"no hash\" must be hexadecimal"},
+      {"/wheel_share", "-1", "wheel_share = -1 must be"},
+      {"/condition", "[]", "condition = [...] must be text"}};
+  for (const BadField& bad : table) {
+    nlohmann::json json = good;
+    json[nlohmann::json::json_pointer{bad.at}] = nlohmann::json::parse(bad.value);
+    EXPECT_THAT([&] { static_cast<void>(trial_record_from_json(json.dump(), "t", 4)); },
+                testing::ThrowsMessage<InputError>(
+                    testing::HasSubstr(std::string{"t:4: is no line of trial results: "} + bad.expected)))
+        << bad.at;
+  }
+  for (const auto& item : good.items()) {
+    nlohmann::json json = good;
+    json.erase(item.key());
+    const bool optional = item.key() == "cause" || item.key() == "crossings";
+    if (!optional)
+      EXPECT_THAT([&] { static_cast<void>(trial_record_from_json(json.dump(), "t", 4)); },
+                  testing::ThrowsMessage<InputError>(testing::HasSubstr(item.key() + " is missing")));
+  }
+  const std::string deep = "{\"family\":" + std::string(100000, '[');
+  EXPECT_THAT([&] { static_cast<void>(trial_record_from_json(deep, "t", 4)); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("nested deeper than 6 levels")));
+}
+
+TEST(TrialRecord, TellsTheSameUnlessMoreThanTimingsDiffer) {
+  const TrialRecord record = some_trials()[1];
+  TrialRecord other = record;
+  other.wall_time = 7.0;
+  other.plan_time.add(3.0);
+  EXPECT_TRUE(same_result(record, other));
+  other.robots[1].plans = 9;
+  EXPECT_FALSE(same_result(record, other));
+}
+
+TEST(ResultRow, CountsNoFurtherThanAnIntHolds) {
+  TrialRecord record = trial(0, sim::TrialOutcome::success, 1.0, 30.0);
+  record.hits_while_standing = 100'000;
+  record.crossing = CrossingRecord{2, 2, 100'000, 1.0};
+  const ResultRow row = result_row(std::vector<TrialRecord>(30'000, record));
+  EXPECT_EQ(row.contacts_moving, std::numeric_limits<int>::max());
+  EXPECT_EQ(row.hits_while_standing, std::numeric_limits<int>::max());
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <istream>
+#include <string>
 #include <vector>
 
 #include "experiments/trial_record.hpp"
@@ -16,9 +18,11 @@ struct TrialLog {
   bool torn = false;                   ///< there is something behind them
 };
 
-/// Reads the trials of a file; an absent file has none. A last line that is not whole (the program was
-/// killed, the machine went down) is left out; anything else that is no trial throws InputError with file and
-/// line.
+/// Reads the trials of a file; an absent file has none. A last line that is the beginning of a trial and was
+/// cut off (the program was killed, the machine went down) is left out; everything else that is no trial is
+/// counted, and throws InputError with every such line, its key, value and limit.
 [[nodiscard]] TrialLog read_trial_log(const std::filesystem::path& path);
+/// The same from a stream; `name` stands for the file in messages.
+[[nodiscard]] TrialLog read_trial_log(std::istream& file, const std::string& name);
 
 }  // namespace spf

@@ -101,8 +101,11 @@ struct TrialRecord {
 
 /// One line of JSON without its line feed. Unknown numbers read null.
 [[nodiscard]] std::string to_json_line(const TrialRecord& record);
-/// The record of such a line. Throws InputError that names `source` and `line`.
+/// The record of such a line. Every field is checked: its kind, its range, its name among those known. Throws
+/// InputError that names `source`, `line`, key, value and limit.
 [[nodiscard]] TrialRecord trial_record_from_json(const std::string& text, const std::string& source,
                                                  int line);
+/// Whether two records tell the same of a trial, timings apart.
+[[nodiscard]] bool same_result(const TrialRecord& a, const TrialRecord& b);
 
 }  // namespace spf

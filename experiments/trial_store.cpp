@@ -36,8 +36,17 @@ TrialStore::TrialStore(const CampaignPlan& plan, std::filesystem::path folder, E
       throw InputError{{path.string(), static_cast<int>(i) + 1, 0},
                        "is a trial of " + cell_text(log.records[i].key) +
                            ", which is not in this campaign or has other settings; choose another --out"};
+    refuse_contradiction(cell, log.records[i], {path.string(), static_cast<int>(i) + 1, 0});
     keep(cell, std::move(log.records[i]), log.starts[i]);
   }
+}
+
+/// Once more is no matter, but otherwise is.
+void TrialStore::refuse_contradiction(int cell, const TrialRecord& record, const SourcePlace& place) const {
+  const auto known = known_.find({cell, record.key.trial});
+  if (known == known_.end() || same_result(known->second.record, record)) return;
+  throw InputError{place, "tells trial " + std::to_string(record.key.trial) + " of " + cell_text(record.key) +
+                              " otherwise than a line before; choose another --out"};
 }
 
 void TrialStore::add(TrialRecord record) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/input_problem.hpp"
 #include "experiments/campaign.hpp"
 #include "experiments/results_folder.hpp"
 #include "experiments/trial_record.hpp"
@@ -19,9 +20,9 @@ class TrialStore {
  public:
   /// In memory alone. The plan must outlive the store.
   explicit TrialStore(const CampaignPlan& plan) : plan_{plan} {}
-  /// In the folder's trials.jsonl. Earlier results are removed, or their trials taken over: each once, the
-  /// first that is told. Throws OutputError when the folder cannot be written or another run is writing it,
-  /// InputError when an earlier trial is none of the plan's.
+  /// In the folder's trials.jsonl. Earlier results are removed, or their trials taken over, each once. Throws
+  /// OutputError when the folder cannot be written or another run is writing it, InputError when an earlier
+  /// trial is none of the plan's, or is told in two ways.
   TrialStore(const CampaignPlan& plan, std::filesystem::path folder, EarlierResults earlier);
 
   /// The folder, null without one.
@@ -47,6 +48,7 @@ class TrialStore {
   struct Timings {
     DurationHistogram plan, control, new_plan, optimiser;
   };
+  void refuse_contradiction(int cell, const TrialRecord& record, const SourcePlace& place) const;
   void keep(int cell, TrialRecord record, std::uintmax_t line);
 
   const CampaignPlan& plan_;
