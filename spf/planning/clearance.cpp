@@ -183,7 +183,8 @@ double ClearanceModel::moving_clearance(const Eigen::Vector2d& position_world, d
   for (const MovingDisc& disc : discs_) {
     DiscCursor cursor{disc};
     cursor.move_to(time);
-    least = std::min(least, (position_world - cursor.position()).norm() - disc.radius - planner_.peer_margin);
+    const double margin = disc.is_peer ? planner_.peer_margin : 0.0;
+    least = std::min(least, (position_world - cursor.position()).norm() - disc.radius - margin);
   }
   return std::min(least, field_clearance(position_world));
 }
@@ -204,16 +205,19 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
       -kLosable * static_margin,
       [&](double, const Eigen::Vector2d& p) { return static_clearance(p, window.margin_scale); }, report);
 
+  // Obstacles have no margin, whether they are taken to stand (a round field, below) or to move on: ES2 and
+  // ES2*.
   const double peer_margin = window.margin_scale * planner_.peer_margin;
   for (const MovingDisc& disc : discs_) {
     DiscCursor other{disc};
     const ConflictKind kind = disc.is_peer ? ConflictKind::peer : ConflictKind::obstacle;
+    const double margin = disc.is_peer ? peer_margin : 0.0;
+    const double floor = disc.is_peer ? -kLosable * peer_margin : -std::numeric_limits<double>::max();
     check_encounter(
-        trajectory, window, {kind, disc.id, speed + disc.speed_bound, window.moving_until},
-        -kLosable * peer_margin,
+        trajectory, window, {kind, disc.id, speed + disc.speed_bound, window.moving_until}, floor,
         [&](double time, const Eigen::Vector2d& p) {
           other.move_to(time);
-          return (p - other.position()).norm() - disc.radius - peer_margin;
+          return (p - other.position()).norm() - disc.radius - margin;
         },
         report);
   }

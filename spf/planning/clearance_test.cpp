@@ -93,8 +93,7 @@ TEST(Clearance, AgreesWithADenseCheckOfMovingDiscs) {
       const Eigen::Vector2d p = own_from + time * own_velocity;
       const Eigen::Vector2d peer = peer_from + std::min(time, 3.0) * peer_velocity;
       const Eigen::Vector2d disc = track.state.position_world + time * track.state.velocity_world;
-      const bool close =
-          (p - peer).norm() < 0.6 + planner.peer_margin || (p - disc).norm() < 0.6 + planner.peer_margin;
+      const bool close = (p - peer).norm() < 0.6 + planner.peer_margin || (p - disc).norm() < 0.6;
       if (k == 0) starts_close = close;
       if (close) {
         first = time;
@@ -109,10 +108,11 @@ TEST(Clearance, AgreesWithADenseCheckOfMovingDiscs) {
         for (int k = 0; k <= 4000; ++k) {
           const double time = k * 1e-3;
           const Eigen::Vector2d p = own_from + time * own_velocity;
-          least = std::min({least, (p - (peer_from + std::min(time, 3.0) * peer_velocity)).norm(),
-                            (p - track.state.position_world - time * track.state.velocity_world).norm()});
+          least = std::min(
+              {least, (p - (peer_from + std::min(time, 3.0) * peer_velocity)).norm() - planner.peer_margin,
+               (p - track.state.position_world - time * track.state.velocity_world).norm()});
         }
-        EXPECT_GT(least, 0.6 + planner.peer_margin - 0.01);
+        EXPECT_GT(least, 0.6 - 0.01);
       }
       continue;
     }
@@ -202,7 +202,7 @@ TEST(Clearance, TreatsObstaclesByTheDynamicModel) {
   };
   EXPECT_GT(clearance(DynamicModel::none, now, 0.0), 1e6);
   EXPECT_NEAR(clearance(DynamicModel::frozen, now, 4.0), -0.7, 1e-12);
-  EXPECT_NEAR(clearance(DynamicModel::constant_velocity, now + Eigen::Vector2d{4.0, 0.0}, 4.0), -0.75, 1e-12);
+  EXPECT_NEAR(clearance(DynamicModel::constant_velocity, now + Eigen::Vector2d{4.0, 0.0}, 4.0), -0.7, 1e-12);
   EXPECT_GT(clearance(DynamicModel::constant_velocity, now, 4.0), 3.0);
   // The field's ellipse reaches farther ahead of the obstacle than behind it, at all times alike.
   const Eigen::Vector2d ahead = now + Eigen::Vector2d{1.5, 0.0};

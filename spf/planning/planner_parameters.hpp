@@ -64,7 +64,7 @@ struct PlannerParameters {
   double static_margin = 0.02;      ///< [m] beyond the robot's radius, for search and checks
   double hard_clearance = 0.1;      ///< [m] wanted beyond that from static obstacles
   double soft_clearance = 0.3;      ///< [m] comfortable beyond that
-  double peer_margin = 0.05;        ///< [m] beyond contact, for checks
+  double peer_margin = 0.05;        ///< [m] beyond contact with peers, for checks
   double peer_clearance = 0.25;     ///< [m] wanted beyond contact with peers
   double safety_distance = 0.3;     ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
   double least_sideways =
@@ -99,8 +99,7 @@ struct PlannerParameters {
           "wanted beyond static_margin (ES2: 0.1)");
     visit("soft_clearance", self.soft_clearance, kMetresBySize, Range{0.001, 100.0},
           "comfortable beyond static_margin (ES2: 0.5)");
-    visit("peer_margin", self.peer_margin, kMetresBySize, kLength,
-          "beyond contact with peers and constant-velocity obstacles, for checks");
+    visit("peer_margin", self.peer_margin, kMetresBySize, kLength, "beyond contact with peers, for checks");
     visit("peer_clearance", self.peer_clearance, kMetresBySize, Range{0.001, 100.0},
           "wanted beyond contact with them");
     visit("safety_distance", self.safety_distance, kMetresBySize, Range{0.001, 100.0}, "d_saf of eq. 10");
