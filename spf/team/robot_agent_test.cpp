@@ -397,8 +397,8 @@ TEST(RobotAgent, MovedAsPlannedItNeedsNoPosesAndKnowsWhereItIs) {
     agent.set_goal({3.0, 0.0});
     for (int tick = 1; tick <= 1000; ++tick) {
       const AgentOutput output = agent.step(0.01 * tick, {});
-      if (source == StateSource::as_planned && output.broadcast)
-        EXPECT_EQ(output.broadcast->position_sigma, 0.0);
+      if (source != StateSource::as_planned || !output.broadcast) continue;
+      EXPECT_EQ(output.broadcast->position_sigma, 0.0);
     }
     const bool there = (agent.committed().position(10.0) - Eigen::Vector2d{3.0, 0.0}).norm() < 0.05;
     EXPECT_EQ(there, source == StateSource::as_planned);

@@ -8,6 +8,7 @@
 
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
+#include "spf/planning/guide_path.hpp"
 #include "spf/testing/allocation_guard.hpp"
 
 namespace spf {
