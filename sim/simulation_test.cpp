@@ -8,6 +8,7 @@
 
 #include "sim/families.hpp"
 #include "sim/geometry.hpp"
+#include "sim/recording.hpp"
 
 namespace spf::sim {
 namespace {
