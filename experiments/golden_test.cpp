@@ -21,6 +21,7 @@
 #include "experiments/run_study_test.hpp"
 #include "parallel/worker_pool.hpp"
 #include "report/table.hpp"
+#include "spf/team/method_table.hpp"
 #include "spf/testing/source_dir.hpp"
 #include "study/scenario_file.hpp"
 
@@ -167,9 +168,10 @@ TEST_P(GoldenSlow, BehaviourIsAsRecorded) {
   std::ifstream file{kFile};
   const Golden golden = read_golden(file);
   std::string differences;
-  for (const auto& [method, name] : EnumNames<Method>::values) {
+  const MethodTable methods;
+  for (const Method& method : methods.all()) {
     std::vector<Setting> settings = GetParam().settings;
-    settings.push_back({std::string{"method="} + name});
+    settings.push_back({"method=" + method.name});
     const Study study = read_study(source_dir() + "/scenarios/" + GetParam().family + ".yaml", settings);
     CampaignRequest request;
     request.jobs = thread_count(renewed_file() != nullptr ? 0 : 1);
