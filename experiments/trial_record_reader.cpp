@@ -162,8 +162,8 @@ RobotRecord robot_of(const Field& field) {
 std::vector<std::string> contact_names() {
   using sim::ContactWith;
   std::vector<std::string> names;
-  for (const ContactWith with : {ContactWith::disc, ContactWith::person, ContactWith::robot, ContactWith::box,
-                                 ContactWith::pillar, ContactWith::wall, ContactWith::border})
+  for (const ContactWith with : {ContactWith::moving, ContactWith::person, ContactWith::robot,
+                                 ContactWith::box, ContactWith::disc, ContactWith::wall, ContactWith::border})
     names.emplace_back(to_string(with));
   return names;
 }

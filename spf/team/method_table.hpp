@@ -30,7 +30,8 @@ class MethodTable {
   /// Throws std::invalid_argument when the name is empty or taken, or the factory is missing.
   void add(Method method);
 
-  [[nodiscard]] const std::vector<Method>& all() const { return *methods_; }
+  [[nodiscard]] const std::vector<Method>& all() const& { return *methods_; }
+  const std::vector<Method>& all() const&& = delete;  // it would not outlive the table
   /// Null when there is none of this name.
   [[nodiscard]] const Method* find(std::string_view name) const;
   /// Throws std::invalid_argument with all names when there is none of this name.

@@ -13,6 +13,8 @@
 namespace spf {
 namespace {
 
+const MethodTable kMethods;
+
 /// Every field by its full name, as text that shows every bit.
 class FieldLister {
  public:
@@ -97,7 +99,7 @@ TEST(WithMethod, KeepsWhatTheMethodDoesNotName) {
   mine.tracker.mpc.horizon = 8;
   const std::set<std::string> own = differing(AgentParameters{}, mine);
   ASSERT_EQ(own.size(), 8U);
-  for (const Method& method : MethodTable{}.all()) {
+  for (const Method& method : kMethods.all()) {
     SCOPED_TRACE(method.name);
     EXPECT_EQ(differing(with_method(AgentParameters{}, method), with_method(mine, method)), own);
   }
@@ -105,8 +107,8 @@ TEST(WithMethod, KeepsWhatTheMethodDoesNotName) {
 
 TEST(WithMethod, OfThePapersPlannerForgetsTheOneBefore) {
   // A file may name one method and the command line another: the result must not depend on the way there.
-  for (const Method& first : MethodTable{}.all()) {
-    for (const Method& second : MethodTable{}.all()) {
+  for (const Method& first : kMethods.all()) {
+    for (const Method& second : kMethods.all()) {
       SCOPED_TRACE(first.name + " then " + second.name);
       const AgentParameters expected = with_method(AgentParameters{}, second);
       if (!second.change) continue;  // those name their planner only
@@ -117,7 +119,7 @@ TEST(WithMethod, OfThePapersPlannerForgetsTheOneBefore) {
 }
 
 TEST(AgentParameters, DefaultsAreInRangeForEveryMethod) {
-  for (const Method& method : MethodTable{}.all())
+  for (const Method& method : kMethods.all())
     EXPECT_THAT(problems(with_method(AgentParameters{}, method)), ::testing::IsEmpty()) << method.name;
 }
 

@@ -14,7 +14,6 @@
 #include "spf/team/agent_parameters.hpp"
 #include "spf/team/agent_status.hpp"
 #include "spf/world/heard_message.hpp"
-#include "spf/world/heard_message.hpp"
 #include "spf/world/observation.hpp"
 #include "spf/world/occupancy_map.hpp"
 #include "spf/world/peer_table.hpp"

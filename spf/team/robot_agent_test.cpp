@@ -345,7 +345,8 @@ class RobotAgentMethodTest : public ::testing::TestWithParam<std::string> {};
 
 INSTANTIATE_TEST_SUITE_P(Methods, RobotAgentMethodTest, ::testing::ValuesIn([] {
                            std::vector<std::string> names;
-                           for (const Method& method : MethodTable{}.all()) names.push_back(method.name);
+                           const MethodTable methods;
+                           for (const Method& method : methods.all()) names.push_back(method.name);
                            return names;
                          }()),
                          [](const auto& parameter) { return std::string{parameter.param}; });
