@@ -141,7 +141,7 @@ TEST_F(CampaignProgram, ResumesAfterSigkillWithTheSameRows) {
                        std::freopen("/dev/null", "w", stderr) != nullptr;
     if (ready)
       ::execl(program_path().c_str(), program_path().c_str(), "experiment", "small.yaml", "--jobs", "2",
-              "--trials", "1000000", "--out", "killed", nullptr);
+              "--trials", "20000", "--out", "killed", nullptr);
     ::_exit(99);
   }
   ASSERT_GT(child, 0);

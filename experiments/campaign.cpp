@@ -11,6 +11,7 @@
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
 #include "experiments/hexadecimal.hpp"
+#include "report/table.hpp"
 
 namespace spf {
 namespace {
@@ -110,7 +111,7 @@ class CellMaker {
           campaign_.methods.size() + campaign_.variants.size()})
       combinations *= static_cast<double>(std::max<std::size_t>(size, 1));
     if (combinations > static_cast<double>(kMostCombinations))
-      problems_.add(root_.place, "has " + to_text(combinations) + " combinations: must be at most " +
+      problems_.add(root_.place, "has " + fixed(combinations, 0) + " combinations: must be at most " +
                                      std::to_string(kMostCombinations) + " (" + kAxes + ")");
     const auto check_set = [&](const std::string& path, const std::vector<std::string>& list) {
       if (list.size() > kMostSettings)

@@ -115,7 +115,7 @@ TEST(Campaign, RefusesMoreCellsAndTrialsThanAnybodyRuns) {
 }
 
 TEST(Campaign, LooksAtAHundredCellsThatCannotRunAndNoMore) {
-  const std::string found = refusal(numbers("levels", 1000) + "set: [robots=3000, layout.squares=200]\n");
+  const std::string found = refusal(numbers("levels", 1000) + "set: [sensing.range=-1]\n");
   EXPECT_THAT(found, HasSubstr("100 cells cannot run; further ones were not looked at"));
 }
 
