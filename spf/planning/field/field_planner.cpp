@@ -158,9 +158,10 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   guidance_.find_conflicts(clearance_.regions(), nodes, problem_.last_moving_node, request.head, conflicts_);
 
   // Every combination of sides (Fig. 4), the first obstacles first. ES2 knows one side only.
-  int free_sides =
+  const int sides =
       planner_.dynamic_model == DynamicModel::probability_field ? static_cast<int>(conflicts_.size()) : 0;
-  while ((1 << free_sides) > planner_.max_side_combinations) --free_sides;
+  int free_sides = 0;
+  while (free_sides < sides && (2 << free_sides) <= planner_.max_side_combinations) ++free_sides;
   for (int mask = 0; mask < (1 << free_sides); ++mask) {
     sides_.assign(clearance_.regions().size(), SideChoice{});
     for (std::size_t i = 0; i < conflicts_.size(); ++i) {

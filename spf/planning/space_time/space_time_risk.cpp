@@ -33,21 +33,24 @@ SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot
 void SpaceTimeRisk::prepare(const PlanRequest& request) {
   entity_count_ = 0;
   order_.clear();
-  const std::vector<ObstacleTrack>* tracks = request.world.tracks;
-  const std::vector<Peer>* peers = request.world.peers;
+  const std::vector<ObstacleTrack> no_tracks;
+  const std::vector<Peer> no_peers;
+  const std::vector<ObstacleTrack>& tracks =
+      request.world.tracks != nullptr ? *request.world.tracks : no_tracks;
+  const std::vector<Peer>& peers = request.world.peers != nullptr ? *request.world.peers : no_peers;
   const double horizon = steps_ * parameters_.step;
   const Eigen::Vector2d& here = request.head.position_world;
 
-  for (std::size_t i = 0; tracks != nullptr && i < tracks->size(); ++i) {
-    const ObstacleTrack& track = (*tracks)[i];
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const ObstacleTrack& track = tracks[i];
     const double reach = (max_speed_ + track.state.velocity_world.norm()) * horizon + track.state.radius +
                          robot_radius_ + parameters_.margin +
                          kNegligibleSigmas * track.position_sigma(request.time + horizon - track.time);
     const double gap = (track.state.position_world - here).norm();
     if (gap < reach) order_.emplace_back(gap, static_cast<int>(i));
   }
-  for (std::size_t i = 0; peers != nullptr && i < peers->size(); ++i) {
-    const Peer& peer = (*peers)[i];
+  for (std::size_t i = 0; i < peers.size(); ++i) {
+    const Peer& peer = peers[i];
     const double gap = (peer.position(request.time) - here).norm();
     const double reach = 2.0 * max_speed_ * horizon + peer.radius + peer.growth + 4.0 * robot_radius_;
     if (gap < reach) order_.emplace_back(gap, -1 - static_cast<int>(i));
@@ -58,9 +61,9 @@ void SpaceTimeRisk::prepare(const PlanRequest& request) {
   }
   for (const auto& [gap, index] : order_) {
     if (index >= 0) {
-      add_track(request, (*tracks)[static_cast<std::size_t>(index)]);
+      add_track(request, tracks[static_cast<std::size_t>(index)]);
     } else {
-      add_peer(request, (*peers)[static_cast<std::size_t>(-1 - index)]);
+      add_peer(request, peers[static_cast<std::size_t>(-1 - index)]);
     }
   }
 }
