@@ -274,6 +274,18 @@ TEST(Faults, APeerThatClaimsThePlaceOfAPillarDoesNotHideIt) {
   }
 }
 
+TEST(Faults, OdometryAtTwoKilohertzIsSeenToStandAsSoon) {
+  PlannerHost planner{0, AgentParameters{}, HostParameters{}};
+  planner.set_map(open_map());
+  for (int i = 0; i < 900; ++i) {
+    const double now = 10.0 + 5e-4 * i;
+    planner.add_pose({now, Pose2{}}, now);
+    planner.step(now);
+  }
+  EXPECT_NE(planner.agent(),
+            nullptr);  // 0.45 s of standing; without being seen to, it would wait for seconds
+}
+
 TEST(Faults, AnyNumberOfPeersIsHeldInBoundedRoom) {
   Bench bench;
   bench.run(1.0);

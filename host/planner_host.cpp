@@ -16,6 +16,7 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kLookBack = 0.3;          // [s] of poses by which a robot is seen to stand
 constexpr double kStandingSpeed = 0.1;     // [1] of max_speed
 constexpr std::size_t kMostWaiting = 256;  // poses, or messages, between two steps; then the agent takes them
+constexpr std::size_t kMostRecent = 4096;  // poses of the look back, at 10 kHz and more
 constexpr double kSpare = 1.0;             // [s] beyond braking, after which it is taken to stand
 
 Eigen::Vector2d mean_position(const std::vector<PoseMeasurement>& poses, std::size_t from, std::size_t to) {
@@ -72,7 +73,7 @@ PoseVerdict PlannerHost::add_pose(const PoseMeasurement& pose, double now) {
     return verdict;
   }
   if (!first_pose_time_) first_pose_time_ = pose.time;
-  if (recent_poses_.size() >= kMostWaiting) recent_poses_.erase(recent_poses_.begin());
+  if (recent_poses_.size() >= kMostRecent) recent_poses_.erase(recent_poses_.begin());
   recent_poses_.push_back(pose);
   const auto old = [&](const PoseMeasurement& past) { return past.time < pose.time - kLookBack; };
   recent_poses_.erase(recent_poses_.begin(),
