@@ -106,8 +106,8 @@ class CellMaker {
     constexpr std::size_t kMostSettings = 100;  // of one list
     double combinations = 2.0;
     for (const std::size_t size :
-         {size_of(campaign_.conditions), campaign_.families.size() + campaign_.scenarios.size(),
-          size_of(campaign_.noise), size_of(campaign_.levels),
+         {campaign_.conditions.size(), campaign_.families.size() + campaign_.scenarios.size(),
+          campaign_.noise.size(), campaign_.levels.size(),
           campaign_.methods.size() + campaign_.variants.size()})
       combinations *= static_cast<double>(std::max<std::size_t>(size, 1));
     if (combinations > static_cast<double>(kMostCombinations))

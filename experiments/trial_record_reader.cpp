@@ -159,20 +159,11 @@ RobotRecord robot_of(const Field& field) {
   return robot;
 }
 
-std::vector<std::string> contact_names() {
-  using sim::ContactWith;
-  std::vector<std::string> names;
-  for (const ContactWith with : {ContactWith::moving, ContactWith::person, ContactWith::robot,
-                                 ContactWith::box, ContactWith::disc, ContactWith::wall, ContactWith::border})
-    names.emplace_back(to_string(with));
-  return names;
-}
-
 ContactRecord contact_of(const Field& field, std::int64_t robots) {
   ContactRecord contact;
   contact.time = field.at("time").number(0.0, kLongestTime);
   contact.robot = field.at("robot").small(0, robots - 1);
-  contact.with = field.at("with").one_of(contact_names());
+  contact.with = enum_name(field.at("with").choice<sim::ContactWith>());
   contact.other = field.at("other").small(-1, 1'000'000'000);
   contact.position = {field.at("x").number(-kLongestWay, kLongestWay),
                       field.at("y").number(-kLongestWay, kLongestWay)};

@@ -19,7 +19,7 @@ double finite_or_unknown(double value) {
 }
 
 ContactRecord contact_of(const sim::Contact& contact) {
-  return {contact.time,           contact.robot,       to_string(contact.with), contact.other,
+  return {contact.time,           contact.robot,       enum_name(contact.with), contact.other,
           contact.position_world, contact.robot_speed, contact.other_speed};
 }
 

@@ -99,16 +99,6 @@ void tell_hosts(fuzz::Bytes bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::Bytes bytes{data, size};
-  switch (bytes.up_to(3)) {
-    case 0:
-      tell_agent(bytes);
-      break;
-    case 1:
-      tell_hosts(bytes);
-      break;
-    default:
-      tell_table(bytes);
-  }
+  fuzz::give({data, size}, tell_agent, tell_hosts, tell_table);
   return 0;
 }

@@ -48,4 +48,10 @@ inline void step(RobotAgent& agent, double time, const AgentInput& input) {
   require_sound(agent);
 }
 
+/// The first byte of an input chooses who is given the rest: one agent, a robot's hosts, or one part alone.
+inline void give(Bytes bytes, void (*to_agent)(Bytes), void (*to_hosts)(Bytes), void (*to_part)(Bytes)) {
+  const int choice = bytes.up_to(3);
+  (choice == 0 ? to_agent : choice == 1 ? to_hosts : to_part)(bytes);
+}
+
 }  // namespace spf::fuzz

@@ -93,16 +93,6 @@ void tell_agent(fuzz::Bytes bytes) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::Bytes bytes{data, size};
-  switch (bytes.up_to(3)) {
-    case 0:
-      tell_agent(bytes);
-      break;
-    case 1:
-      tell_hosts(bytes);
-      break;
-    default:
-      tell_map(bytes);
-  }
+  fuzz::give({data, size}, tell_agent, tell_hosts, tell_map);
   return 0;
 }

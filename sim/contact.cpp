@@ -39,28 +39,6 @@ double first_below(const Function& at, double limit) {
 
 }  // namespace
 
-// The words stand in result files, so they stay: discs that move are called discs there, and discs that
-// stand, pillars.
-const char* to_string(ContactWith with) {
-  switch (with) {
-    case ContactWith::moving:
-      return "disc";
-    case ContactWith::person:
-      return "person";
-    case ContactWith::robot:
-      return "robot";
-    case ContactWith::box:
-      return "box";
-    case ContactWith::disc:
-      return "pillar";
-    case ContactWith::wall:
-      return "wall";
-    case ContactWith::border:
-      return "border";
-  }
-  return "?";
-}
-
 double swept_distance(const Motion& a, const Motion& b) {
   return distance_to_segment(Eigen::Vector2d::Zero(), {a.from - b.from, a.to - b.to});
 }

@@ -2,16 +2,39 @@
 // and the least distance over the step is exact. Frame: world.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "sim/scenario.hpp"
 #include "sim/uniform_grid.hpp"
+#include "spf/math/parameters.hpp"
 
-namespace spf::sim {
+namespace spf {
+namespace sim {
 
 enum class ContactWith { moving, person, robot, box, disc, wall, border };
-[[nodiscard]] const char* to_string(ContactWith with);
+
+}  // namespace sim
+
+/// The words stand in result files, so they stay: discs that move are called discs there, and discs that
+/// stand, pillars.
+template <>
+struct EnumNames<sim::ContactWith> {
+  static constexpr std::array<std::pair<sim::ContactWith, const char*>, 7> values{
+      {{sim::ContactWith::moving, "disc"},
+       {sim::ContactWith::person, "person"},
+       {sim::ContactWith::robot, "robot"},
+       {sim::ContactWith::box, "box"},
+       {sim::ContactWith::disc, "pillar"},
+       {sim::ContactWith::wall, "wall"},
+       {sim::ContactWith::border, "border"}}};
+};
+
+}  // namespace spf
+
+namespace spf::sim {
 
 /// Who touched what, when, and how fast both were.
 struct Contact {

@@ -126,7 +126,7 @@ void Recorder::hit_while_standing(const Contact& contact) {
 }
 
 void Recorder::note_contact(const Contact& contact, RecordedEvent::Kind kind) {
-  std::string text = to_string(contact.with);
+  std::string text = enum_name(contact.with);
   if (contact.other >= 0) text += " " + std::to_string(contact.other);
   recording_->events.push_back(
       {contact.time, contact.robot, kind, text, contact.other, contact.position_world});

@@ -171,7 +171,7 @@ std::string contact_text(const spf::sim::Contact& contact) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(),
                 "robot %d touched %s%s at %.2f s, at %.2f m/s (the other at %.2f m/s)", contact.robot,
-                to_string(contact.with), other.c_str(), contact.time, contact.robot_speed,
+                spf::enum_name(contact.with), other.c_str(), contact.time, contact.robot_speed,
                 contact.other_speed);
   return text.data();
 }
