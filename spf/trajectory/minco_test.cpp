@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "spf/math/lbfgs.hpp"
 #include "spf/math/random_stream.hpp"
 #include "spf/testing/allocation_guard.hpp"
+#include "spf/testing/dense_oracle.hpp"
 #include "spf/testing/gradient_check.hpp"
 #include "spf/trajectory/decision_vector.hpp"
 
@@ -87,7 +87,7 @@ Eigen::MatrixXd dense_coefficients(const Problem& problem) {
       ++row;
     }
   }
-  return matrix.fullPivLu().solve(right);
+  return solve_densely(matrix, right);
 }
 
 Eigen::Vector2d derivative(const QuinticPiece& piece, int order, double t) {
