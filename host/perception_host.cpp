@@ -1,7 +1,6 @@
 #include "host/perception_host.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "host/scan_check.hpp"
 #include "host/sensed_map.hpp"
@@ -9,7 +8,6 @@
 namespace spf::host {
 namespace {
 
-constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kExplained = 0.5;  // [radii of the robot] beyond a tracked disc: returns there are its own
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "host/plan_check.hpp"
@@ -12,7 +11,6 @@
 namespace spf::host {
 namespace {
 
-constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kLookBack = 0.3;          // [s] of poses by which a robot is seen to stand
 constexpr double kStandingSpeed = 0.1;     // [1] of max_speed
 constexpr std::size_t kMostWaiting = 256;  // poses, or messages, between two steps; then the agent takes them

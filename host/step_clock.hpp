@@ -3,8 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace spf::host {
+
+/// When something happened that has not [s].
+inline constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 class StepClock {
  public:

@@ -8,7 +8,7 @@
 namespace spf {
 namespace {
 
-constexpr double kRestSpeed = 0.01;  // [1] of max_speed
+constexpr double kRestShare = 0.01;  // [1] of max_speed
 
 PlannerParameters at_constant_velocity(PlannerParameters planner) {
   planner.dynamic_model = DynamicModel::constant_velocity;
@@ -44,7 +44,7 @@ void PlanJudge::judge(const PlanRequest& request, double until, PlanResult& resu
     return;
   }
   const bool at_goal = (request.head.position_world - request.guide->goal_used()).norm() <= goal_tolerance_ &&
-                       request.head.velocity_world.norm() <= kRestSpeed * robot_.max_speed &&
+                       request.head.velocity_world.norm() <= kRestShare * robot_.max_speed &&
                        (plan.tail_position() - request.guide->goal_used()).norm() <= goal_tolerance_;
   result.outcome = at_goal ? PlanOutcome::goal_reached : PlanOutcome::success;
 }

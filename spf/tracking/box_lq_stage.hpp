@@ -10,10 +10,6 @@ namespace spf::box_lq {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-inline std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
 inline Vector3d clipped(const Vector3d& input, double limit) {
   return input.cwiseMax(-limit).cwiseMin(limit);
 }

@@ -7,11 +7,8 @@
 namespace spf {
 namespace {
 
+using box_lq::index;
 using Eigen::Vector3d;
-
-std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
 
 bool usable(const MpcProblem& problem, int horizon) {
   if (problem.reference.steps != horizon) return false;

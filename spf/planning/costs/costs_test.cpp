@@ -23,7 +23,7 @@ CostWeights no_weights() {
 }
 
 /// A wriggling motion of a few metres in 2 to 8 pieces, with things in its way at all sides.
-struct Scene {
+struct CostScene {
   TrajectorySeed seed;
   TrajectoryProblem problem;
   std::vector<GuidePair> static_pairs;
@@ -39,7 +39,7 @@ Eigen::Vector2d draw_vector(RandomStream& random, double size) {
   return {x, y};
 }
 
-void draw_scene(RandomStream& random, int pieces, Scene& scene) {
+void draw_scene(RandomStream& random, int pieces, CostScene& scene) {
   scene.seed.resize(pieces);
   for (int i = 0; i < pieces; ++i) {
     scene.seed.durations[i] = random.uniform(0.6, 1.8);
@@ -98,7 +98,7 @@ double worst_error(const CostWeights& weights, const std::function<void(Trajecto
   for (int pieces = 2; pieces <= planner.max_pieces; ++pieces) {
     for (int i = 0; i < 5; ++i) {
       RandomStream random{mix(static_cast<std::uint64_t>(pieces), static_cast<std::uint64_t>(i))};
-      Scene scene;
+      CostScene scene;
       draw_scene(random, pieces, scene);
       scene.problem.static_pairs = &scene.static_pairs;
       scene.problem.field_pairs = &scene.field_pairs;

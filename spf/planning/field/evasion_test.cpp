@@ -21,7 +21,7 @@ PlannerParameters planner_parameters() {
   return parameters;
 }
 
-struct Scene {
+struct EvasionScene {
   OccupancyMap map{GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
@@ -55,7 +55,7 @@ struct Scene {
 };
 
 TEST(Evasion, BrakesWhenNothingIsNear) {
-  Scene scene;
+  EvasionScene scene;
   scene.head.velocity_world = {0.8, 0.3};
   const Evasion evasion = scene.evade();
   EXPECT_FALSE(evasion.sidestep);
@@ -71,7 +71,7 @@ TEST(Evasion, StepsAsideWhenStandingWouldBeGrazed) {
     SCOPED_TRACE(i);
     const double angle = 2.0 * kPi * i / 24;
     const Eigen::Vector2d from{std::cos(angle), std::sin(angle)};
-    Scene scene;
+    EvasionScene scene;
     const Eigen::Vector2d beside{-from.y(), from.x()};
     scene.add(2.0 * from + 0.53 * beside, -0.8 * from);
     const Evasion evasion = scene.evade();
@@ -83,7 +83,7 @@ TEST(Evasion, StepsAsideWhenStandingWouldBeGrazed) {
 }
 
 TEST(Evasion, KeepsOutOfTheWallItHasBehind) {
-  Scene scene;
+  EvasionScene scene;
   scene.map.add_box({-9.0, -2.0}, {9.0, -0.4});  // 0.1 m from the robot's side
   scene.add({0.5, 2.0}, {0.0, -0.7});
   const Evasion evasion = scene.evade();
@@ -98,7 +98,7 @@ TEST(Evasion, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
   int sidesteps = 0;
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
-    Scene scene;
+    EvasionScene scene;
     scene.head.velocity_world =
         random.uniform(0.0, 1.0) * random.normal2().normalized() * scene.robot.max_speed;
     for (int k = 0; k < 3; ++k) {
@@ -131,7 +131,7 @@ TEST(Evasion, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
 
 TEST(Evasion, WithoutAWayOutTakesTheLatestConflict) {
   // Discs close in from all sides, those on the right later.
-  Scene scene;
+  EvasionScene scene;
   for (int i = 0; i < 8; ++i) {
     const double angle = 2.0 * kPi * i / 8;
     const Eigen::Vector2d from{std::cos(angle), std::sin(angle)};
@@ -151,7 +151,7 @@ TEST(Evasion, WithoutAWayOutTakesTheLatestConflict) {
 /// Ten evasions a second of a robot that stands before an obstacle, inside its field.
 double least_gap_of_evasions(const Eigen::Vector2d& obstacle_from, const Eigen::Vector2d& velocity,
                              const std::vector<Eigen::Vector2d>& wall) {
-  Scene scene;
+  EvasionScene scene;
   if (!wall.empty()) scene.map.add_box(wall[0], wall[1]);
   scene.add(obstacle_from, velocity);
   double least = std::numeric_limits<double>::infinity();
@@ -187,7 +187,7 @@ TEST(Evasion, LeavesTheFieldOnTheOtherSideOfAWall) {
 }
 
 TEST(Evasion, TellsHowLongItStaysInTheField) {
-  Scene scene;
+  EvasionScene scene;
   scene.add({5.0, 0.0}, {-0.5, 0.0});
   EXPECT_EQ(scene.evade(PlannerParameters{}).time_in_fields, 0.0);
   scene.tracks[0].state.position_world = {0.3, 0.6};  // half in: out within the second that it takes

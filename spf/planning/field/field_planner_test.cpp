@@ -24,7 +24,7 @@ struct Box {
 };
 
 /// A walled field of 30 m with boxes, obstacles, peers and one robot's request.
-struct Scene {
+struct PlannerScene {
   std::vector<Box> boxes;
   std::unique_ptr<OccupancyMap> map;
   std::vector<ObstacleTrack> tracks;
@@ -98,7 +98,7 @@ PlannerParameters with_model(DynamicModel model) {
 }
 
 TEST(FieldPlanner, GoesStraightToAGoalInTheOpen) {
-  Scene scene;
+  PlannerScene scene;
   scene.finish({-2.0, 0.0}, {3.0, 0.0});
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
@@ -120,7 +120,7 @@ TEST(FieldPlanner, PlansThroughSixSquaresWithoutContact) {
   RandomStream random{101};
   for (int i = 0; i < 25; ++i) {
     SCOPED_TRACE(i);
-    Scene scene;
+    PlannerScene scene;
     const double angle = random.uniform(-kPi, kPi);
     const Eigen::Vector2d start = 6.0 * Eigen::Vector2d{std::cos(angle), std::sin(angle)};
     draw_boxes(random, 6, 5.0, {start, -start}, scene.boxes);
@@ -150,7 +150,7 @@ TEST(FieldPlanner, PlansThroughSixSquaresWithoutContact) {
 }
 
 TEST(FieldPlanner, LeavesAUShapedTrap) {
-  Scene scene;
+  PlannerScene scene;
   for (int i = -3; i <= 3; ++i) scene.boxes.push_back({{2.0, 1.0 * i}, 1.0});
   for (int i = 0; i <= 3; ++i) {
     scene.boxes.push_back({{2.0 - i, 3.0}, 1.0});
@@ -168,7 +168,7 @@ TEST(FieldPlanner, LeavesAUShapedTrap) {
 TEST(FieldPlanner, TriesBothSidesOfAMovingDiscAndKeepsOutOfItsField) {
   for (const double y : {-0.2, 0.0, 0.15}) {
     SCOPED_TRACE(y);
-    Scene scene;
+    PlannerScene scene;
     scene.tracks.push_back(make_track(1, {0.0, y}, {-0.4, 0.0}));
     scene.finish({-3.5, 0.0}, {4.0, 0.0});
     scene.request.keep_candidates = true;
@@ -210,7 +210,7 @@ TEST(FieldPlanner, TriesBothSidesOfAMovingDiscAndKeepsOutOfItsField) {
 TEST(FieldPlanner, CountsEveryRunOfTheOptimiser) {
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
-  Scene open;
+  PlannerScene open;
   open.finish({-3.5, 0.0}, {5.0, 0.0});
   planner.plan(open.request, result);
   ASSERT_EQ(result.outcome, PlanOutcome::success);
@@ -218,7 +218,7 @@ TEST(FieldPlanner, CountsEveryRunOfTheOptimiser) {
   EXPECT_GT(result.stats.inner_iterations, 1);
   EXPECT_GE(result.stats.evaluations, result.stats.inner_iterations);
   // A disc in the way: the first run meets it, then each side is run.
-  Scene blocked;
+  PlannerScene blocked;
   blocked.tracks.push_back(make_track(1, {1.0, 0.05}, {0.0, 0.0}));
   blocked.finish({-3.5, 0.0}, {5.0, 0.0});
   planner.plan(blocked.request, result);
@@ -228,7 +228,7 @@ TEST(FieldPlanner, CountsEveryRunOfTheOptimiser) {
 }
 
 TEST(FieldPlanner, KeepsItsSideWhenBothAreAlike) {
-  Scene scene;
+  PlannerScene scene;
   scene.tracks.push_back(make_track(1, {1.0, 0.0}, {0.0, 0.0}));
   scene.finish({-3.5, 0.0}, {5.0, 0.0});
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
@@ -261,7 +261,7 @@ TEST(FieldPlanner, AvoidsAnObstacleInEveryModelOfIt) {
   for (const DynamicModel model :
        {DynamicModel::frozen, DynamicModel::constant_velocity, DynamicModel::probability_field}) {
     SCOPED_TRACE(enum_name(model));
-    Scene scene;
+    PlannerScene scene;
     scene.tracks.push_back(make_track(1, {1.5, -0.1}, {-0.5, 0.0}));
     scene.finish({-3.5, 0.0}, {5.0, 0.0});
     FieldPlanner planner{with_model(model), RobotParameters{}, FieldParameters{}};
@@ -275,7 +275,7 @@ TEST(FieldPlanner, AvoidsAnObstacleInEveryModelOfIt) {
       ASSERT_GT((p - obstacle).norm(), 0.7) << ahead;
     }
   }
-  Scene scene;
+  PlannerScene scene;
   scene.tracks.push_back(make_track(1, {1.5, 0.0}, {-0.5, 0.0}));
   scene.finish({-3.5, 0.0}, {5.0, 0.0});
   FieldPlanner blind{with_model(DynamicModel::none), RobotParameters{}, FieldParameters{}};
@@ -286,7 +286,7 @@ TEST(FieldPlanner, AvoidsAnObstacleInEveryModelOfIt) {
 
 TEST(FieldPlanner, YieldsToAPeerOfHigherPriorityOnly) {
   for (const int peer_id : {0, 9}) {
-    Scene scene;
+    PlannerScene scene;
     Peer peer;
     peer.robot_id = peer_id;
     peer.state = PeerState::moving;
@@ -316,7 +316,7 @@ TEST(FieldPlanner, YieldsToAPeerOfHigherPriorityOnly) {
 }
 
 TEST(FieldPlanner, StandsAtTheGoalAndTurnsThere) {
-  Scene scene;
+  PlannerScene scene;
   scene.finish({2.0, 1.0}, {2.0, 1.0});
   scene.request.goal_heading = 1.0;
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
@@ -332,7 +332,7 @@ TEST(FieldPlanner, KeepsTheWheelsWithinTheirLimits) {
   RobotParameters robot;
   robot.max_wheel_speed = 0.7;  // less than max_speed
   const OmniKinematics kinematics{robot};
-  Scene scene;
+  PlannerScene scene;
   scene.finish({-2.0, 0.0}, {4.0, 1.0});
   scene.request.goal_heading = 2.5;
   FieldPlanner planner{PlannerParameters{}, robot, FieldParameters{}};
@@ -356,7 +356,7 @@ TEST(FieldPlanner, DoesNotLoopNearTheGoal) {
   RandomStream random{51};
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
-    Scene scene;
+    PlannerScene scene;
     const Eigen::Vector2d offset = std::pow(10.0, random.uniform(-2.5, -0.3)) * random.normal2().normalized();
     scene.finish({1.0, 1.0}, Eigen::Vector2d{1.0, 1.0} + offset);
     scene.request.head.velocity_world = random.uniform(0.0, 0.4) * offset.normalized();
@@ -371,7 +371,7 @@ TEST(FieldPlanner, DoesNotLoopNearTheGoal) {
 
 TEST(FieldPlanner, BrakesWhenThereIsNoSafePlan) {
   // A corridor as wide as one robot, and a robot of higher priority that comes the other way.
-  Scene scene;
+  PlannerScene scene;
   Peer peer;
   peer.robot_id = 1;
   peer.state = PeerState::moving;
@@ -400,7 +400,7 @@ TEST(FieldPlanner, BrakesWhenThereIsNoSafePlan) {
 
 TEST(FieldPlanner, StopsInFrontOfWhatStandsOnItsWay) {
   // A wall with one gap, and a stopped robot in it.
-  Scene scene;
+  PlannerScene scene;
   Peer peer;
   peer.robot_id = 7;
   peer.state = PeerState::stopped;
@@ -420,7 +420,7 @@ TEST(FieldPlanner, StopsInFrontOfWhatStandsOnItsWay) {
 }
 
 TEST(FieldPlanner, SaysWhenThereIsNoWay) {
-  Scene scene;
+  PlannerScene scene;
   scene.finish({-0.5, 0.0}, {5.0, 0.0});
   scene.map->add_box({2.0, -15.0}, {3.0, 15.0});
   scene.guide.update(*scene.map, {5.0, 0.0}, {-0.5, 0.0});
@@ -432,7 +432,7 @@ TEST(FieldPlanner, SaysWhenThereIsNoWay) {
 }
 
 TEST(FieldPlanner, RefusesWhatIsNoRequest) {
-  Scene scene;
+  PlannerScene scene;
   scene.finish({-0.5, 0.0}, {5.0, 0.0});
   FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   PlanResult result;
@@ -451,7 +451,7 @@ TEST(FieldPlanner, RefusesWhatIsNoRequest) {
 }
 
 /// Crowded: boxes, obstacles and peers at random.
-void draw_crowd(RandomStream& random, Scene& scene) {
+void draw_crowd(RandomStream& random, PlannerScene& scene) {
   const Eigen::Vector2d start = draw_place(random, 9.0);
   const Eigen::Vector2d goal = draw_place(random, 9.0);
   draw_boxes(random, 14, 9.0, {start, goal}, scene.boxes);
@@ -486,7 +486,7 @@ TEST(FieldPlannerSlow, EndsWithinItsBudgetWhateverTheScene) {
                                               : i % 3 == 1 ? DynamicModel::constant_velocity
                                                            : DynamicModel::probability_field);
     if (i % 5 == 0) parameters.max_evaluations = 200;
-    Scene scene;
+    PlannerScene scene;
     draw_crowd(random, scene);
     FieldPlanner planner{parameters, RobotParameters{}, FieldParameters{}};
     planner.plan(scene.request, result);
@@ -505,7 +505,7 @@ TEST(FieldPlannerSlow, EndsWithinItsBudgetWhateverTheScene) {
 
 TEST(FieldPlanner, GivesTheSameBitsAgain) {
   RandomStream random{71};
-  Scene scene;
+  PlannerScene scene;
   draw_crowd(random, scene);
   FieldPlanner one{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
   FieldPlanner two{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
@@ -522,7 +522,7 @@ TEST(FieldPlanner, DoesNotAllocateAfterTheFirstPlan) {
   RandomStream random{81};
   for (int i = 0; i < 20; ++i) {
     SCOPED_TRACE(i);
-    Scene scene;
+    PlannerScene scene;
     draw_crowd(random, scene);
     FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
     PlanResult result;

@@ -12,10 +12,10 @@
 namespace spf {
 namespace {
 
-constexpr double kParallel = 1e-12;        // [1] sine of the angle between lines that count as parallel
-constexpr double kSlack = 1e-10;           // [m/s] rounding that is no violation
-constexpr double kRestSpeed = 1e-6;        // [m/s] slower is standing
-constexpr double kStandingDuration = 1.0;  // [s] length of a standing trajectory
+constexpr double kParallel = 1e-12;      // [1] sine of the angle between lines that count as parallel
+constexpr double kSlack = 1e-10;         // [m/s] rounding that is no violation
+constexpr double kStandingSpeed = 1e-6;  // [m/s] slower is standing
+constexpr double kStandingTime = 1.0;    // [s] length of a standing trajectory
 
 /// What a linear programme wants: a place to be near, or a direction to go far in.
 struct Objective {
@@ -345,11 +345,12 @@ Trajectory OrcaPlanner::trajectory_for(const PlanRequest& request, const Eigen::
     if (ramp > kShortest) append_ramp(trajectory, position, present, reached, ramp);
   }
   const double speed = reached.norm();
-  if (ramp <= kShortest && speed < kRestSpeed)
-    return Trajectory::standing(position, request.time, kStandingDuration);
+  if (ramp <= kShortest && speed < kStandingSpeed)
+    return Trajectory::standing(position, request.time, kStandingTime);
   if (parameters_.period - ramp > kShortest)
     append_ramp(trajectory, position, reached, reached, parameters_.period - ramp);
-  if (speed > kRestSpeed) append_ramp(trajectory, position, reached, Eigen::Vector2d::Zero(), speed / limit);
+  if (speed > kStandingSpeed)
+    append_ramp(trajectory, position, reached, Eigen::Vector2d::Zero(), speed / limit);
   return trajectory;
 }
 

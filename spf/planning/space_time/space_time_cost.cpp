@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/normal_distribution.hpp"
+
 namespace spf {
 namespace {
 
-constexpr double kSqrtHalf = 0.70710678118654752440;
 constexpr double kInverseSqrtTwoPi = 0.39894228040143267794;
 constexpr double kFarSigmas = 5.0;  // Phi(-5) = 3e-7
 
-double tail_chance(double z) {
-  return 0.5 * std::erfc(z * kSqrtHalf);
-}
 double density(double z) {
   return kInverseSqrtTwoPi * std::exp(-0.5 * z * z);
 }
@@ -43,7 +41,7 @@ void add_entity(const SpaceTimeRisk::Entity& entity, const Instant& at, double r
   if (z > kFarSigmas) return;
   const double factor_step = entity.size_factor[at.step + 1] - entity.size_factor[at.step];
   const double factor = rate * (entity.size_factor[at.step] + at.part * factor_step);
-  const double chance = tail_chance(z);
+  const double chance = normal_tail(z);
   const double slope = -factor * density(z);  // dP / dz
   penalty.integrand += factor * chance;
   // At the very centre there is no way out that is better than another.
@@ -70,7 +68,7 @@ void SpaceTimeCost::operator()(NodeSet& nodes) const {
     if (z > kFarSigmas) continue;
     // Inside the margin the cost goes on growing, so that the way out is always downhill.
     const double depth = std::max(0.0, -clearance) / wanted_clearance;
-    penalty.integrand += rate * (tail_chance(z) + depth);
+    penalty.integrand += rate * (normal_tail(z) + depth);
     const double slope = -density(z) / static_sigma - (clearance < 0.0 ? 1.0 / wanted_clearance : 0.0);
     penalty.wrt_position += rate * slope * map->distance_gradient(node.position);
   }

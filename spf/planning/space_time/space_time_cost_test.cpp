@@ -16,8 +16,9 @@ namespace {
 constexpr double kStart = 3.0;  // [s]
 
 /// Obstacles and a peer about the way from the origin along x, over a map with a box.
-struct Scene {
-  explicit Scene(std::uint64_t seed) : map{GridFrame::covering({-5.0, -8.0}, {15.0, 8.0}, 0.1), 2.0} {
+struct SpaceTimeScene {
+  explicit SpaceTimeScene(std::uint64_t seed)
+      : map{GridFrame::covering({-5.0, -8.0}, {15.0, 8.0}, 0.1), 2.0} {
     RandomStream random{seed};
     for (int id = 0; id < 4; ++id) {
       ObstacleTrack track;
@@ -87,7 +88,7 @@ TEST(SpaceTimeCost, NodeGradientInPlaceAndTime) {
   OneNode node;
   int felt = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Scene scene{mix(31, static_cast<std::uint64_t>(i / 20))};
+    const SpaceTimeScene scene{mix(31, static_cast<std::uint64_t>(i / 20))};
     const Eigen::Vector2d place{random.uniform(0.0, 5.0), random.uniform(-1.5, 1.5)};
     // Away from the joints of the table, where the interpolation has a kink.
     const int cell = static_cast<int>(random.uniform(-3.0, 33.0));
@@ -115,7 +116,7 @@ TEST(SpaceTimeCost, NodeGradientInPlaceAndTime) {
 
 TEST(SpaceTimeCost, IsThePriceOfTheChanceThatTheRiskTells) {
   // At a step of the table, far from static surfaces, the integrand is the sum of SpaceTimeRisk::chance.
-  const Scene scene{5};
+  const SpaceTimeScene scene{5};
   OneNode node;
   RandomStream random{6};
   for (int i = 0; i < 200; ++i) {
@@ -131,7 +132,7 @@ TEST(SpaceTimeCost, IsThePriceOfTheChanceThatTheRiskTells) {
 }
 
 TEST(SpaceTimeCost, StaticSurfacesPushOutOfThemselvesAndNothingElseIsFelt) {
-  Scene scene{5};
+  SpaceTimeScene scene{5};
   scene.tracks.clear();
   scene.peers.clear();
   PlanRequest request;
@@ -156,7 +157,7 @@ TEST(SpaceTimeCost, WholeCostGradientWithDurations) {
   int felt = 0;
   for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(i);
-    const Scene scene{mix(77, static_cast<std::uint64_t>(i))};
+    const SpaceTimeScene scene{mix(77, static_cast<std::uint64_t>(i))};
     const PlannerParameters planner;
     const int pieces = 2 + i % (planner.max_pieces - 1);
     TrajectorySeed seed;

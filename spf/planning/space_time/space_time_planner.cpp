@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "spf/math/normal_distribution.hpp"
+
 namespace spf {
 namespace {
 
 constexpr int kProgressSamples = 3;
 constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter ways are not smoothed
-constexpr double kSqrtHalf = 0.70710678118654752440;
 
 RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
   return {robot.max_speed, robot.max_acceleration, parameters.step, steps};
@@ -65,8 +66,7 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   const double clearance = least - wanted_clearance;
   // Deeper is worse without end, so that a robot inside the margin is led out of it.
   const double depth = std::max(0.0, -clearance) / wanted_clearance;
-  const double static_chance =
-      clearance > 4.0 * softness ? 0.0 : 0.5 * std::erfc(clearance / softness * kSqrtHalf) + depth;
+  const double static_chance = clearance > 4.0 * softness ? 0.0 : normal_tail(clearance / softness) + depth;
   const double left = (enough - score.time) / std::max(parameters_.risk_price, 1e-9) - static_chance;
   score.chance = static_chance;
   score.risk = static_chance * parameters_.risk_price;

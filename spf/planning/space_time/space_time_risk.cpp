@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/normal_distribution.hpp"
 #include "spf/world/prediction.hpp"
 
 namespace spf {
 namespace {
 
-constexpr double kSqrtHalf = 0.70710678118654752440;
 constexpr double kNegligibleSigmas = 4.0;  // Phi(-4) = 3e-5: a 1000 s contact then costs 0.03 s at most
 
 }  // namespace
 
 double overlap_probability(double distance, double radius, double sigma) {
-  return 0.5 * std::erfc((distance - radius) / sigma * kSqrtHalf) * std::erf(radius / sigma * kSqrtHalf);
+  return normal_tail((distance - radius) / sigma) * normal_within(radius / sigma);
 }
 
 SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed)
@@ -118,7 +118,7 @@ void SpaceTimeRisk::finish(Entity& entity, double own_sigma) {
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
     entity.sigma[at] = std::hypot(entity.sigma[at], own_sigma);
-    entity.size_factor[at] = std::erf(entity.radius / entity.sigma[at] * kSqrtHalf) *
+    entity.size_factor[at] = normal_within(entity.radius / entity.sigma[at]) *
                              (entity.is_peer ? peer_fading_ : fading_)[at] * entity.weight;
     entity.reach[at] = entity.radius + kNegligibleSigmas * entity.sigma[at];
   }
@@ -129,7 +129,7 @@ double SpaceTimeRisk::chance(const Entity& entity, int step, const Eigen::Vector
   const double squared = (position_world - entity.mean_world[at]).squaredNorm();
   if (squared > entity.reach[at] * entity.reach[at]) return 0.0;
   const double z = (std::sqrt(squared) - entity.radius) / entity.sigma[at];
-  return 0.5 * std::erfc(z * kSqrtHalf) * entity.size_factor[at];
+  return normal_tail(z) * entity.size_factor[at];
 }
 
 double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,

@@ -12,8 +12,8 @@ namespace spf {
 namespace {
 
 /// A request in an empty place with the given obstacles and peers around a robot at the origin.
-struct Scene {
-  Scene()
+struct RiskScene {
+  RiskScene()
       : map{GridFrame::covering(Eigen::Vector2d::Constant(-10.0), Eigen::Vector2d::Constant(10.0), 0.2),
             2.0} {}
   OccupancyMap map;
@@ -77,7 +77,7 @@ TEST(OverlapProbability, FallsWithDistance) {
 }
 
 TEST(SpaceTimeRisk, LeavesOutWhatCannotComeNear) {
-  Scene scene;
+  RiskScene scene;
   scene.tracks.push_back(track_at(3, {2.0, 0.0}, {0.0, 0.0}));
   scene.tracks.push_back(track_at(4, {9.5, 9.5}, {0.5, 0.5}));
   scene.tracks[1].velocity_diffusion = 0.0;
@@ -88,7 +88,7 @@ TEST(SpaceTimeRisk, LeavesOutWhatCannotComeNear) {
 }
 
 TEST(SpaceTimeRisk, KeepsTheNearestWhenThereAreTooMany) {
-  Scene scene;
+  RiskScene scene;
   for (int i = 0; i < 200; ++i)
     scene.tracks.push_back(track_at(i, {0.01 * (200 - i) + 1.0, 0.0}, {0.0, 0.0}));
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
@@ -101,7 +101,7 @@ TEST(SpaceTimeRisk, KeepsTheNearestWhenThereAreTooMany) {
 // An obstacle that crosses x = 2 at t = 1: standing there then is dangerous, standing where it has been is
 // not.
 TEST(SpaceTimeRisk, KnowsWhenAnObstacleIsWhere) {
-  Scene scene;
+  RiskScene scene;
   scene.tracks.push_back(track_at(0, {2.0, -1.0}, {0.0, 1.0}));
   scene.tracks[0].velocity_diffusion = 0.0;
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
@@ -120,8 +120,8 @@ TEST(SpaceTimeRisk, IsUnchangedWhenTheSceneTurns) {
     const Eigen::Vector2d velocity = random.normal2();
     const Eigen::Vector2d query = 2.0 * random.normal2();
     const Eigen::Rotation2Dd turn{random.uniform(-3.0, 3.0)};
-    Scene scene;
-    Scene turned;
+    RiskScene scene;
+    RiskScene turned;
     SpaceTimeParameters parameters;
     parameters.predict_bounces = false;
     scene.tracks.push_back(track_at(0, position, velocity));
@@ -135,7 +135,7 @@ TEST(SpaceTimeRisk, IsUnchangedWhenTheSceneTurns) {
 }
 
 TEST(SpaceTimeRisk, CountsAPeerThatYieldsByItsWeightOnly) {
-  Scene scene;
+  RiskScene scene;
   Peer peer;
   peer.robot_id = 5;  // behind robot 1 in rank
   peer.state = PeerState::moving;
@@ -152,7 +152,7 @@ TEST(SpaceTimeRisk, CountsAPeerThatYieldsByItsWeightOnly) {
 }
 
 TEST(SpaceTimeRisk, GrowsWithOwnUncertaintyOutsideTheRadius) {
-  Scene scene;
+  RiskScene scene;
   scene.tracks.push_back(track_at(0, {2.0, 0.0}, {0.0, 0.0}));
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   PlanRequest request = scene.request();
