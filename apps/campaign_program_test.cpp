@@ -32,16 +32,6 @@ constexpr const char* kCampaign =
     "levels: [0, 1]\n"
     "trials: 6\n";
 
-/// The same but for what depends on the speed of the machine.
-Json without_timings(const std::string& line) {
-  Json json = Json::parse(line);
-  for (const char* timing :
-       {"plan_time", "control_time", "wall_time", "new_plan_time", "optimiser_time", "plan_ms_median",
-        "plan_ms_p99", "plan_ms_max", "control_us_median", "control_us_p99", "wall_seconds"})
-    json.erase(timing);
-  return json;
-}
-
 class CampaignProgram : public Program {
  protected:
   CampaignProgram() {

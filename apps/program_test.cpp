@@ -168,14 +168,6 @@ TEST_F(Program, PrintsTheRowAloneWhenAsked) {
   EXPECT_EQ(row.at("tracking"), "ideal");
 }
 
-/// A trial's line without what a clock measured.
-std::string without_timings(const std::string& line) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(line);
-  for (const char* name : {"plan_time", "control_time", "wall_time", "new_plan_time", "optimiser_time"})
-    json.erase(name);
-  return json.dump();
-}
-
 TEST_F(Program, GivesTheSameRowsForAnyNumberOfJobs) {
   const std::string what =
       "run good.yaml --trials 6 --level 1 --noise walk --set sensing.detections=noisy --set "

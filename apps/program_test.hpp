@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -37,6 +38,16 @@ inline std::vector<std::string> lines_of(const fs::path& path) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;
+}
+
+/// A trial's or a row's line without what depends on the speed of the machine.
+inline nlohmann::ordered_json without_timings(const std::string& line) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(line);
+  for (const char* timing :
+       {"plan_time", "control_time", "wall_time", "new_plan_time", "optimiser_time", "plan_ms_median",
+        "plan_ms_p99", "plan_ms_max", "control_us_median", "control_us_p99", "wall_seconds"})
+    json.erase(timing);
+  return json;
 }
 
 struct Finished {

@@ -83,7 +83,7 @@ TEST(CrowdFile, WritesWhatItReads) {
   }
 }
 
-std::string refusal(const std::vector<Setting>& settings, const std::string& file = kPed) {
+std::string refusal_of_ped(const std::vector<Setting>& settings, const std::string& file = kPed) {
   try {
     static_cast<void>(read_study(file, settings));
   } catch (const InputError& error) {
@@ -93,10 +93,11 @@ std::string refusal(const std::vector<Setting>& settings, const std::string& fil
 }
 
 TEST(PedScenario, NamesItsRecordingWherePathsBegin) {
-  EXPECT_EQ(refusal({}), "good");  // beside the scenario file, wherever the test runs
-  EXPECT_EQ(refusal({{"crowd=" + source_dir() + "/scenarios/crowds/plaza.csv"}}), "good");
-  EXPECT_THAT(refusal({{"crowd=crowds/plaza.csv"}}), HasSubstr("--set: crowd = crowds/plaza.csv is no file"));
-  EXPECT_THAT(refusal({{"crowd=" + source_dir()}}), HasSubstr("is not a regular file"));
+  EXPECT_EQ(refusal_of_ped({}), "good");  // beside the scenario file, wherever the test runs
+  EXPECT_EQ(refusal_of_ped({{"crowd=" + source_dir() + "/scenarios/crowds/plaza.csv"}}), "good");
+  EXPECT_THAT(refusal_of_ped({{"crowd=crowds/plaza.csv"}}),
+              HasSubstr("--set: crowd = crowds/plaza.csv is no file"));
+  EXPECT_THAT(refusal_of_ped({{"crowd=" + source_dir()}}), HasSubstr("is not a regular file"));
   EXPECT_THROW(static_cast<void>(study_from_text("family: ped\n", "bare.yaml")), InputError);
 }
 

@@ -10,10 +10,9 @@
 #include <vector>
 
 namespace spf {
-namespace {
 
 /// The jobs of one call.
-class Round {
+class WorkerPool::Round {
  public:
   Round(std::size_t count, const std::function<bool(std::size_t)>& job) : count_{count}, job_{job} {}
 
@@ -48,8 +47,6 @@ class Round {
   std::exception_ptr failure_;
   std::size_t failed_ = 0;
 };
-
-}  // namespace
 
 /// What the threads share. A thread takes part in every round once, however late it wakes.
 struct WorkerPool::Shared {

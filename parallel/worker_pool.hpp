@@ -48,6 +48,7 @@ class WorkerPool {
   }
 
  private:
+  class Round;
   struct Shared;
   /// Jobs that return false let no further ones begin.
   void run(std::size_t count, const std::function<bool(std::size_t)>& job);
