@@ -11,6 +11,7 @@
 
 #include "spf/localisation/observer.hpp"
 #include "spf/tracking/test/mpc_instances.hpp"
+#include "spf/tracking/test/plan_through.hpp"
 #include "spf/tracking/tracker.hpp"
 #ifdef SPF_HAVE_IPOPT
 #include "spf/tracking/test/mpc_ipopt_oracle.hpp"
@@ -132,12 +133,10 @@ BENCHMARK(BM_Observer)->ArgName("kalman")->Arg(0)->Arg(1);
 
 /// A smooth wavy line driven at about 0.8 m/s.
 Trajectory wavy() {
-  std::vector<PlanPoint> points;
-  for (int i = 0; i <= 30; ++i) {
-    const double t = 0.5 * i;
-    points.push_back({t, {0.7 * t, std::sin(0.5 * t)}, {0.7, 0.5 * std::cos(0.5 * t)}, {}});
-  }
-  return fit_trajectory(points, 0.0, HeadingProfile{0.0, HeadingState{}, 2.0, 0.5, 1.0});
+  Eigen::Matrix2Xd places(2, 31);
+  for (int i = 0; i <= 30; ++i) places.col(i) << 0.35 * i, std::sin(0.25 * i);
+  return plan_through(places, 0.5, {0.7, 0.5}, {0.7, 0.0},
+                      HeadingProfile{0.0, HeadingState{}, 2.0, 0.5, 1.0});
 }
 
 // One control tick as the agent runs it: five poses at 100 Hz taken in, then reference and MPC.

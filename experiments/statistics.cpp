@@ -73,8 +73,4 @@ double percentile(std::vector<double> values, double share) {
   return low + fraction * (*std::min_element(at + 1, values.end()) - low);
 }
 
-double median(std::vector<double> values) {
-  return percentile(std::move(values), 0.5);
-}
-
 }  // namespace spf

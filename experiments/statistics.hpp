@@ -30,6 +30,5 @@ struct Interval {
 /// Percentile with linear interpolation between order statistics (position share * (n - 1); type 7 of Hyndman
 /// and Fan), share in [0, 1]; NaN when there are no values.
 [[nodiscard]] double percentile(std::vector<double> values, double share);
-[[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace spf

@@ -125,7 +125,7 @@ struct ReplayObstacle {
   std::vector<ReplayObstacleFrame> frames;
 };
 
-enum class ReplayEventKind { contact, stop, arrival, replan, note };
+enum class ReplayEventKind { contact, stop, arrival, note };
 struct ReplayEvent {
   double time = 0.0;  ///< [s]
   int robot = -1;     ///< its id, -1 = none

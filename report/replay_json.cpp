@@ -233,8 +233,6 @@ const char* name(ReplayEventKind kind) {
       return "stop";
     case ReplayEventKind::arrival:
       return "arrival";
-    case ReplayEventKind::replan:
-      return "replan";
     case ReplayEventKind::note:
       return "note";
   }

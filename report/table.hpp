@@ -27,8 +27,6 @@ class Table {
   /// GitHub's pipe table; pipes and line breaks inside cells are escaped.
   [[nodiscard]] std::string to_markdown() const;
 
-  [[nodiscard]] std::size_t row_count() const { return rows_.size(); }
-
  private:
   std::vector<TableColumn> columns_;
   std::vector<std::vector<std::string>> rows_;

@@ -40,7 +40,6 @@ TEST(Table, MarkdownEscapesPipesAndMarksAlignment) {
 TEST(Table, RefusesRowsOfAnotherLength) {
   Table table = sample();
   EXPECT_THROW(table.add_row({"one"}), std::invalid_argument);
-  EXPECT_EQ(table.row_count(), 2U);
   EXPECT_THROW(Table{{}}, std::invalid_argument);
 }
 

@@ -91,7 +91,6 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
       radio{scenario},
       meter{scenario.robots.size()} {
   AgentParameters parameters = agent_parameters_for(scenario, agent);
-  parameters.team.keep_candidates = parameters.team.keep_candidates || options.record;
   const OccupancyMap map = robot_map(scenario, parameters.occupancy);
   if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame());
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
@@ -102,6 +101,7 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
     const RobotTask& task = scenario.robots[i];
     agents.emplace_back(static_cast<int>(i), parameters, map, task.start, 0.0, source);
     agents.back().set_goal(task.goal_world, task.goal_heading);
+    agents.back().set_keep_candidates(options.record);
   }
   wheel_speeds.assign(count, Eigen::Vector3d::Zero());
   hosted.resize(count);

@@ -4,7 +4,7 @@ const timelineCanvas = document.getElementById("timeline");
 const slider = document.getElementById("slider");
 const EDGE = 8;  // [px] half the slider's thumb, so that both scales agree
 const STATE_COLORS = { moving: "accent", braking: "caution", waiting: "caution", arrived: "good", trouble: "bad" };
-const MARKS = { contact: "\u2715", stop: "\u25a0", arrival: "\u25b2", replan: "\u21bb", note: "\u2022" };
+const MARKS = { contact: "\u2715", stop: "\u25a0", arrival: "\u25b2", note: "\u2022" };
 
 /** Unbroken runs of one state: [first frame, frame after the last, state]. */
 function stateRuns(robot) {
@@ -60,10 +60,7 @@ function paintTimeline() {
   context.fillStyle = colors.raised;
   context.fillRect(EDGE, 33, width - 2 * EDGE, 9);
   if (state.robot) paintStateBand(context, x);
-  for (const event of run.events) {
-    if (event.kind === "replan" && event.robot !== state.robot?.id) continue;
-    paintMark(context, event, x(event.time));
-  }
+  for (const event of run.events) paintMark(context, event, x(event.time));
   const now = Math.round(x(state.time)) + 0.5;
   context.strokeStyle = colors.text;
   context.lineWidth = 1.5;
@@ -83,26 +80,24 @@ function paintSlider() {
 function describeEvent(event) {
   const who = event.robot >= 0 ? `robot ${event.robot}` : "";
   const whom = event.other ? `with ${event.other}` : "";
-  const words = { contact: `contact ${whom}`, stop: "stop", arrival: "arrived", replan: "replan", note: "" }[event.kind];
+  const words = { contact: `contact ${whom}`, stop: "stop", arrival: "arrived", note: "" }[event.kind];
   return [[who, words].filter(Boolean).join(" ").trim(), event.text].filter(Boolean).join(": ");
 }
 
 /** One line under the slider: what happened last, for a while; then what comes next. */
 function paintNow() {
   const line = document.getElementById("now");
-  const next = run.events.find((event) => event.kind !== "replan" && event.time > state.time + 1e-9);
+  const next = run.events.find((event) => event.time > state.time + 1e-9);
   let text = next ? `next: ${formatted(next.time, 1)} s  ${describeEvent(next)}` : "";
-  for (let i = lastBefore(run.events, state.time); i >= 0 && run.events[i].time > state.time - 3; --i) {
-    if (run.events[i].kind === "replan") continue;
-    text = `${formatted(run.events[i].time, 1)} s  ${describeEvent(run.events[i])}`;
-    break;
-  }
+  const last = lastBefore(run.events, state.time);
+  if (last >= 0 && run.events[last].time > state.time - 3)
+    text = `${formatted(run.events[last].time, 1)} s  ${describeEvent(run.events[last])}`;
   setText(line, text);
 }
 
-/** The next or last event that is no replan. */
+/** The next or last event. */
 function jumpToEvent(direction) {
-  const times = run.events.filter((event) => event.kind !== "replan").map((event) => event.time);
+  const times = run.events.map((event) => event.time);
   const found = direction > 0 ? times.find((time) => time > state.time + 1e-3) : times.filter((time) => time < state.time - 1e-3).pop();
   if (found === undefined) return;
   pause();

@@ -74,7 +74,7 @@ let currentEvent = null;
 function listEvents() {
   const kind = document.getElementById("event-kind").value;
   const own = document.getElementById("event-own").checked;
-  const wanted = run.events.filter((event) => (kind === "all" || event.kind === kind || (kind === "main" && event.kind !== "replan")) &&
+  const wanted = run.events.filter((event) => (kind === "all" || event.kind === kind) &&
     (!own || event.robot === state.robot?.id));
   listedEvents = wanted.slice(0, EVENT_LIMIT).map((event) => [event, eventButton(event)]);
   const rows = listedEvents.map(([, button]) => make("li", {}, button));

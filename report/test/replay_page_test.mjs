@@ -172,7 +172,7 @@ await check("events and charts jump on a click", desktop, "", async (page) => {
   await page.click("#events button");
   await clockIs(page, time);
   assert.match(await page.textContent("#now"), /contact with obstacle 0/);
-  await page.selectOption("#event-kind", "replan");
+  await page.selectOption("#event-kind", "arrival");
   const all = await page.locator("#events button").count();
   await page.check("#event-own");
   assert.ok(await page.locator("#events button").count() < all);

@@ -221,10 +221,8 @@ ReplayData sample_replay(const SampleReplayRequest& request) {
       see(robot, seen, t, {frame.pose.x, frame.pose.y});
       robot.frames.push_back(frame);
     }
-    for (double t = 0.0; t < course.duration; t += request.replan_interval) {
+    for (double t = 0.0; t < course.duration; t += request.replan_interval)
       robot.plans.push_back(sample_plan(course, t, i));
-      data.events.push_back({t, robot.id, ReplayEventKind::replan, "periodic", "", std::nullopt});
-    }
     data.events.push_back(
         {course.duration, robot.id, ReplayEventKind::arrival, "at the goal", "", robot.goal});
     if (i == 1) {

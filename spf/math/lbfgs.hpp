@@ -115,7 +115,6 @@ class Lbfgs {
   }
 
   [[nodiscard]] const LbfgsParameters& parameters() const { return parameters_; }
-  [[nodiscard]] int max_dimension() const { return static_cast<int>(current_.point.size()); }
 
  private:
   /// The caller's two callables, seen without their types and without owning them.

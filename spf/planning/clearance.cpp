@@ -178,17 +178,6 @@ double ClearanceModel::time_in_fields(const Trajectory& trajectory, double from,
   return 0.0;
 }
 
-double ClearanceModel::moving_clearance(const Eigen::Vector2d& position_world, double time) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const MovingDisc& disc : discs_) {
-    DiscCursor cursor{disc};
-    cursor.move_to(time);
-    const double margin = disc.is_peer ? planner_.peer_margin : 0.0;
-    least = std::min(least, (position_world - cursor.position()).norm() - disc.radius - margin);
-  }
-  return std::min(least, field_clearance(position_world));
-}
-
 ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const ClearanceWindow& window) const {
   assert(map_ != nullptr && !trajectory.empty());
   const double speed = speed_bound(trajectory);

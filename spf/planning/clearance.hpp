@@ -82,8 +82,6 @@ class ClearanceModel {
   /// Time until the trajectory is out of every danger region for good [s]: 0 when it never is in one,
   /// until - from when it is in one to the end.
   [[nodiscard]] double time_in_fields(const Trajectory& trajectory, double from, double until) const;
-  /// Smallest clearance from everything that moves, at one place and time [m].
-  [[nodiscard]] double moving_clearance(const Eigen::Vector2d& position_world, double time) const;
 
   [[nodiscard]] const std::vector<MovingDisc>& discs() const { return discs_; }
   [[nodiscard]] const std::vector<DangerRegion>& regions() const { return regions_; }

@@ -198,7 +198,10 @@ TEST(Clearance, TreatsObstaclesByTheDynamicModel) {
   const auto clearance = [&](DynamicModel dynamic, const Eigen::Vector2d& place, double time) {
     ClearanceModel model = make_model(dynamic);
     model.prepare(world.snapshot(3), 0.0, PeerSelection::all);
-    return model.moving_clearance(place, time);
+    ClearanceWindow instant;
+    instant.from = instant.moving_until = time;
+    instant.static_until = time - 1.0;
+    return model.check(Trajectory::standing(place, 0.0, 10.0), instant).min_clearance;
   };
   EXPECT_GT(clearance(DynamicModel::none, now, 0.0), 1e6);
   EXPECT_NEAR(clearance(DynamicModel::frozen, now, 4.0), -0.7, 1e-12);

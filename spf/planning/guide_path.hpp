@@ -76,10 +76,8 @@ class GuidePath {
   /// Whether a way leads from here to the goal.
   [[nodiscard]] bool reachable(const Eigen::Vector2d& position_world) const;
 
-  [[nodiscard]] const Eigen::Vector2d& goal_asked() const { return goal_asked_; }
   /// The goal, or the nearest place that keeps the clearance.
   [[nodiscard]] const Eigen::Vector2d& goal_used() const { return goal_used_; }
-  [[nodiscard]] std::uint64_t map_revision() const { return map_revision_; }
   [[nodiscard]] const GuidePathParameters& parameters() const { return parameters_; }
 
  private:

@@ -108,7 +108,6 @@ class TrajectoryOptimizer {
   [[nodiscard]] const NodeSet& nodes() const { return nodes_; }
   /// The motion without a heading, beginning at the problem's start time.
   [[nodiscard]] Trajectory trajectory() const { return minco_.trajectory(problem_.start_time); }
-  [[nodiscard]] int max_pieces() const { return planner_.max_pieces; }
 
  private:
   void begin(const TrajectoryProblem& problem, const TrajectorySeed& seed);

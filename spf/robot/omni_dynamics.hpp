@@ -31,7 +31,6 @@ class OmniDynamics {
   void step(double dt, const Eigen::Vector3d& commanded_wheel_speeds);
 
   [[nodiscard]] const PlantState& state() const { return state_; }
-  void set_state(const PlantState& state) { state_ = state; }
   /// Rim speeds [m/s] now; they follow from the motion of the body.
   [[nodiscard]] Eigen::Vector3d wheel_speeds() const;
   /// Torques [N m] of the last step, after clipping.

@@ -12,7 +12,6 @@ struct RobotParameters {
   double max_jerk = 20.0;             ///< [m/s^3] bound of the planned motion
   double max_yaw_rate = 1.5;          ///< [rad/s]
   double max_yaw_acceleration = 3.0;  ///< [rad/s^2]
-  int wheel_count = 3;                ///< [1] omni wheels, evenly spaced
   double first_wheel_angle = 0.0;     ///< [rad] angle of wheel 1's axle in the body frame
   double wheel_arm = 0.2;             ///< [m] centre to wheel contact (L of eq. 14)
   double max_wheel_speed = 1.5;       ///< [m/s] rim speed of a wheel
@@ -32,7 +31,6 @@ struct RobotParameters {
     visit("max_yaw_rate", self.max_yaw_rate, "rad/s", Range{1e-3, 50.0}, "largest planned yaw rate");
     visit("max_yaw_acceleration", self.max_yaw_acceleration, "rad/s^2", Range{0.01, 500.0},
           "largest planned yaw acceleration");
-    visit("wheel_count", self.wheel_count, "1", Range{3, 3}, "evenly spaced omni wheels");
     visit("first_wheel_angle", self.first_wheel_angle, "rad", Range{-6.3, 6.3},
           "angle of wheel 1's axle in the body frame (0 in the paper)");
     visit("wheel_arm", self.wheel_arm, "m", Range{0.001, 5.0},

@@ -41,6 +41,7 @@ struct RobotAgent::Implementation {
   std::optional<Eigen::Vector2d> goal;  // [m]
   std::optional<double> goal_heading;   // [rad]
   bool paused = false;
+  bool keep_candidates = false;
   PlanResult result;
   Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  // [m/s]
   double last_pose_time;                                   // [s]
@@ -119,7 +120,7 @@ void RobotAgent::Implementation::make_plan(double time) {
   request.world = beliefs.snapshot(time);
   request.guide = &guide.path();
   request.goal_cut_off = guide.cut_off();
-  request.keep_candidates = parameters.team.keep_candidates;
+  request.keep_candidates = keep_candidates;
   const bool measured = source == StateSource::measured;
   commitment.begin_plan(measured ? std::optional{tracker.estimate(time)} : std::nullopt, request);
   request.position_sigma = position_sigma(time);
@@ -159,6 +160,10 @@ void RobotAgent::clear_goal() {
 }
 void RobotAgent::set_paused(bool paused) {
   implementation_->paused = paused;
+}
+
+void RobotAgent::set_keep_candidates(bool keep) {
+  implementation_->keep_candidates = keep;
 }
 void RobotAgent::set_distrusted(std::vector<int> robot_ids) {
   implementation_->beliefs.set_distrusted(std::move(robot_ids));

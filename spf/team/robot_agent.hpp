@@ -54,6 +54,8 @@ class RobotAgent {
   void set_goal(const Eigen::Vector2d& goal_world, std::optional<double> goal_heading = std::nullopt);
   void clear_goal();
   void set_paused(bool paused);
+  /// Keep every candidate in last_plan(), for display (allocates).
+  void set_keep_candidates(bool keep);
   /// Peers (sorted) whose discs mask no scan returns, since they are not where they say: what is seen there
   /// is static. They are kept away from as before. Replaces the ones named before.
   void set_distrusted(std::vector<int> robot_ids);

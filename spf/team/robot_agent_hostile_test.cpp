@@ -115,7 +115,7 @@ TEST_P(HostileTest, MessagesThatAreMalformed) {
     add(16, [](TrajectoryMessage& m) { m.radius = kNaN; });
     add(17, [](TrajectoryMessage& m) { m.radius = -1.0; });
     add(18, [](TrajectoryMessage& m) { m.position_sigma = kInfinity; });
-    add(19, [](TrajectoryMessage& m) { m.trajectory.set_start_time(kNaN); });
+    add(19, [](TrajectoryMessage& m) { m.trajectory = straight({0.0, 8.0}, {0.1, 0.0}, kNaN, 2.0); });
     add(20, [](TrajectoryMessage& m) { m.trajectory.set_heading(HeadingProfile{kNaN}); });
     // In the robot's name, in its way.
     add(2, [&](TrajectoryMessage& m) { m.trajectory = straight({1.0, 0.0}, {0.0, 0.0}, time, 9.0); });

@@ -17,7 +17,6 @@ struct TeamParameters {
   double guide_period = 0.5;       ///< [s] the guide path follows a changing map at most this often
   double guide_idle_period = 2.0;  ///< [s] and, while its way stays clear, at most this often
   int priority = 0;  ///< [1] the smaller goes first; among equals the robot with the smaller number
-  bool keep_candidates = false;       ///< keep every candidate of a plan, for display (allocates)
   ReplanningParameters replanning{};  ///< of the paper's method; its keys stand among these
 
   template <class Self, class Visitor>
@@ -39,7 +38,6 @@ struct TeamParameters {
           "and, while its way stays clear, at most this often");
     visit("priority", self.priority, "1", Range{0, 1000000},
           "the smaller goes first; among equals the robot with the smaller number");
-    visit("keep_candidates", self.keep_candidates, "keep every candidate of a plan, for display");
     ReplanningParameters::visit_fields(self.replanning, visit);
   }
 };

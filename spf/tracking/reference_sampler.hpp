@@ -7,8 +7,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <optional>
-#include <vector>
 
 #include "spf/math/parameters.hpp"
 #include "spf/math/pose2.hpp"
@@ -23,8 +21,6 @@ inline constexpr int kMaxHorizon = 20;
 struct ReferenceParameters {
   bool self_sampling = true;         ///< false: the ablation "without self-sampling"
   double plan_point_interval = 0.5;  ///< [s] spacing of the plan's points that the ablation holds
-  bool nearest_start = false;        ///< start from the point nearest to the robot instead of the schedule's
-  double max_slip = 0.5;             ///< [s] the largest departure from the schedule that it may cause
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -33,10 +29,6 @@ struct ReferenceParameters {
           "points");
     visit("plan_point_interval", self.plan_point_interval, "s", Range{0.01, 10.0},
           "without self-sampling: spacing of the plan's points; our choice");
-    visit("nearest_start", self.nearest_start,
-          "start from the trajectory point nearest to the robot, at most max_slip from the schedule");
-    visit("max_slip", self.max_slip, "s", Range{0.0, 10.0},
-          "largest departure from the schedule with nearest_start; our choice");
   }
 };
 
@@ -49,7 +41,7 @@ struct ReferenceRequest {
   /// first step to last dt; on a curve the first command would then run ahead by half the difference.
   /// Points 1..H are shifted so that the first step has the mean velocity of the time it is held.
   double hold = 0.0;
-  Pose2 robot_world;  ///< for the heading's turn count and for nearest_start
+  Pose2 robot_world;  ///< for the heading's turn count
 };
 
 struct Reference {
@@ -59,29 +51,11 @@ struct Reference {
   std::array<Eigen::Vector3d, kMaxHorizon>
       wheel_speeds;  ///< [m/s] within the limits, steps 0..H-1: they move the
                      ///< MPC's model from point k to point k + 1
-  double slip =
-      0.0;  ///< [s] departure from the schedule, to be broadcast: point 0 is the plan at time + slip
-  bool slip_limited = false;  ///< the nearest point lies beyond max_slip
 };
 
 /// Never throws, never allocates. Requires a trajectory that is not empty, 1 <= steps <= kMaxHorizon, dt > 0.
 [[nodiscard]] Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest& request,
                                          const OmniKinematics& kinematics,
                                          const ReferenceParameters& parameters);
-
-/// A point of a plan that arrives as points.
-struct PlanPoint {
-  double time = 0.0;  ///< [s]
-  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();
-  Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();
-  std::optional<Eigen::Vector2d> acceleration_world;
-};
-
-/// Polynomials through positions, velocities and timestamps of adjacent points: cubic, or quintic where both
-/// ends know their acceleration; exact where the plan is such a polynomial already. Of a plan with more
-/// intervals than a Trajectory holds, those from the one that contains from_time on. Throws
-/// std::invalid_argument on fewer than two points, times that do not grow, or values that are not finite.
-[[nodiscard]] Trajectory fit_trajectory(const std::vector<PlanPoint>& points, double from_time,
-                                        const HeadingProfile& heading = {});
 
 }  // namespace spf

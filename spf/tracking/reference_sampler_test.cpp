@@ -47,7 +47,6 @@ TEST(ReferenceSampler, ReadsTheTrajectoryAtTheCurrentTime) {
       EXPECT_NEAR(reference.pose[k].x(), 0.8 * (time - 1.0 + 0.1 * static_cast<double>(k)), 1e-12);
       EXPECT_NEAR(reference.twist[k].x(), 0.8, 1e-12);
     }
-    EXPECT_EQ(reference.slip, 0.0);
   }
 }
 
@@ -122,99 +121,13 @@ TEST(ReferenceSampler, WithoutSelfSamplingHoldsThePlansPoints) {
   EXPECT_EQ(reference.wheel_speeds[0].norm(), 0.0);
 }
 
-TEST(ReferenceSampler, NearestStartFindsTheNearestPointWithinTheSlip) {
-  ReferenceParameters parameters;
-  parameters.nearest_start = true;
-  ReferenceRequest request = request_at(3.0);
-  request.robot_world.position_world = {0.8 * 1.8, 0.3};  // 0.2 s behind, to the side
-  Reference reference = sample_reference(straight(), request, kKinematics, parameters);
-  EXPECT_NEAR(reference.slip, -0.2, 1e-4);
-  EXPECT_FALSE(reference.slip_limited);
-  EXPECT_NEAR(reference.pose[0].x(), 0.8 * 1.8, 1e-4);
-  request.robot_world.position_world = {0.0, 0.3};
-  reference = sample_reference(straight(), request, kKinematics, parameters);
-  EXPECT_NEAR(reference.slip, -0.5, 1e-3);
-  EXPECT_TRUE(reference.slip_limited);
-}
-
-TEST(ReferenceSampler, NearestStartKeepsTheScheduleOfAStandingPlan) {
-  ReferenceParameters parameters;
-  parameters.nearest_start = true;
-  ReferenceRequest request = request_at(3.0);
-  request.robot_world.position_world = {1.0, 1.0};
-  const Trajectory standing = Trajectory::standing({0.0, 0.0}, 0.0, 10.0);
-  EXPECT_EQ(sample_reference(standing, request, kKinematics, parameters).slip, 0.0);
-}
-
 TEST(ReferenceSampler, DoesNotAllocate) {
   const Trajectory trajectory = straight();
-  ReferenceParameters parameters;
-  parameters.nearest_start = true;
   const AllocationGuard guard;
-  const Reference reference = sample_reference(trajectory, request_at(2.0), kKinematics, parameters);
+  const Reference reference =
+      sample_reference(trajectory, request_at(2.0), kKinematics, ReferenceParameters{});
   EXPECT_EQ(guard.allocations(), 0);
   EXPECT_EQ(reference.steps, 5);
-}
-
-PlanPoint point_of(const Trajectory& trajectory, double time, bool with_acceleration) {
-  const FlatState state = trajectory.state(time);
-  PlanPoint point{time, state.position_world, state.velocity_world, {}};
-  if (with_acceleration) point.acceleration_world = state.acceleration_world;
-  return point;
-}
-
-TEST(FitTrajectory, IsExactWhereThePlanIsSuchAPolynomial) {
-  RandomStream random{6};
-  for (int n = 0; n < 100; ++n) {
-    const bool quintic = n % 2 == 0;
-    QuinticPiece piece = random_piece(random, 2.0);
-    if (!quintic) piece.coefficients.bottomRows<2>().setZero();
-    Trajectory plan{10.0};
-    plan.append(piece);
-    std::vector<PlanPoint> points;
-    for (const double time : {10.0, 10.3, 11.1, 12.0}) points.push_back(point_of(plan, time, quintic));
-    const Trajectory fitted = fit_trajectory(points, 10.0);
-    EXPECT_EQ(fitted.piece_count(), 3);
-    for (double time = 10.0; time <= 12.0; time += 0.05) {
-      // Coefficients of order 1 up to 2^5 in size, divided by up to 0.3^3: some 1e3 roundings.
-      EXPECT_LT((fitted.position(time) - plan.position(time)).norm(), 1e-11);
-      EXPECT_LT((fitted.state(time).velocity_world - plan.state(time).velocity_world).norm(), 1e-10);
-    }
-  }
-}
-
-TEST(FitTrajectory, MeetsPositionsAndVelocitiesOfAnyPlan) {
-  RandomStream random{8};
-  std::vector<PlanPoint> points;
-  for (int i = 0; i < 12; ++i) points.push_back({0.4 * i, random.normal2(), random.normal2(), {}});
-  const Trajectory fitted = fit_trajectory(points, 0.0);
-  for (const PlanPoint& point : points) {
-    const FlatState state = fitted.state(point.time);
-    EXPECT_LT((state.position_world - point.position_world).norm(), 1e-12);
-    EXPECT_LT((state.velocity_world - point.velocity_world).norm(), 1e-11);
-  }
-}
-
-TEST(FitTrajectory, TakesTheWindowOfALongPlanThatHoldsTheTime) {
-  std::vector<PlanPoint> points;
-  for (int i = 0; i <= 100; ++i) points.push_back({0.1 * i, {0.05 * i, 0.0}, {0.5, 0.0}, {}});
-  const Trajectory fitted = fit_trajectory(points, 5.05);
-  EXPECT_LE(fitted.start_time(), 5.05);
-  EXPECT_GT(fitted.start_time(), 4.9);
-  EXPECT_EQ(fitted.piece_count(), Trajectory::kMaxPieces);
-  EXPECT_NEAR(fitted.position(6.0).x(), 3.0, 1e-12);
-}
-
-TEST(FitTrajectory, RefusesUnusablePlans) {
-  const PlanPoint first{0.0, {0.0, 0.0}, {0.0, 0.0}, {}};
-  PlanPoint second{1.0, {1.0, 0.0}, {0.0, 0.0}, {}};
-  EXPECT_NO_THROW(static_cast<void>(fit_trajectory({first, second}, 0.0)));
-  EXPECT_THROW(static_cast<void>(fit_trajectory({first}, 0.0)), std::invalid_argument);
-  second.time = 0.0;
-  EXPECT_THROW(static_cast<void>(fit_trajectory({first, second}, 0.0)), std::invalid_argument);
-  second.time = 1.0;
-  second.velocity_world.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(static_cast<void>(fit_trajectory({first, second}, 0.0)), std::invalid_argument);
 }
 
 }  // namespace

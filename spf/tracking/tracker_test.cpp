@@ -12,6 +12,7 @@
 #include "spf/math/random_stream.hpp"
 #include "spf/robot/omni_dynamics.hpp"
 #include "spf/testing/allocation_guard.hpp"
+#include "spf/tracking/test/plan_through.hpp"
 
 namespace spf {
 namespace {
@@ -25,23 +26,14 @@ Trajectory circle(const HeadingProfile& heading) {
     const double ramp = std::clamp(std::min(t, 8.0 - t) / 2.0, 0.0, 1.0);
     return ramp * ramp * (3.0 - 2.0 * ramp);
   };
-  const auto slope = [&speed](double t) { return (speed(t + 1e-5) - speed(t - 1e-5)) / 2e-5; };
-  std::vector<PlanPoint> points;
+  Eigen::Matrix2Xd places(2, 33);
   double angle = 0.0;
   constexpr int kSub = 2500;
   for (int i = 0; i <= 32; ++i) {
-    const double t = 0.25 * i;
-    const Eigen::Vector2d outward{std::cos(angle), std::sin(angle)};
-    const Eigen::Vector2d along{-outward.y(), outward.x()};
-    PlanPoint point;
-    point.time = t;
-    point.position_world = outward;
-    point.velocity_world = speed(t) * along;
-    point.acceleration_world = slope(t) * along - speed(t) * speed(t) * outward;
-    points.push_back(point);
-    for (int j = 0; j < kSub; ++j) angle += 0.25 / kSub * speed(t + 0.25 * (j + 0.5) / kSub);
+    places.col(i) << std::cos(angle), std::sin(angle);
+    for (int j = 0; j < kSub; ++j) angle += 0.25 / kSub * speed(0.25 * i + 0.25 * (j + 0.5) / kSub);
   }
-  return fit_trajectory(points, 0.0, heading);
+  return plan_through(places, 0.25, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), heading);
 }
 
 struct LoopOptions {
@@ -89,7 +81,7 @@ LoopResult run_loop(const TrackerParameters& parameters, const Trajectory& traje
     plant.step(0.005, command);
     PlantState state = plant.state();
     state.pose_world.position_world -= options.slip * (state.pose_world.position_world - before);
-    plant.set_state(state);
+    plant = OmniDynamics{robot, state};
 
     const double now = time + 0.005;
     const double error = (state.pose_world.position_world - trajectory.position(now)).norm();

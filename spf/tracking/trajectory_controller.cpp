@@ -47,8 +47,6 @@ const TrackerOutput& TrajectoryController::step(double time, const MotionState& 
   output_.twist_world = kinematics_.twist_world(output_.wheel_speeds, estimate.pose_world.heading);
   output_.reference_twist = problem_.reference.twist[0];
   output_.reference_pose = problem_.reference.pose[0] - lag_ * problem_.reference.twist[0];
-  output_.slip = problem_.reference.slip;
-  output_.slip_limited = problem_.reference.slip_limited;
   return output_;
 }
 

@@ -31,8 +31,6 @@ struct TrackerOutput {
   Eigen::Vector3d twist_world = Eigen::Vector3d::Zero();      ///< [m/s, m/s, rad/s] that they command
   Eigen::Vector3d reference_pose = Eigen::Vector3d::Zero();   ///< where the plan wants the robot now
   Eigen::Vector3d reference_twist = Eigen::Vector3d::Zero();  ///< and how fast
-  double slip = 0.0;  ///< [s] departure from the schedule (ReferenceParameters::nearest_start)
-  bool slip_limited = false;
   MpcStatus mpc_status = MpcStatus::invalid_problem;
 };
 

@@ -53,7 +53,6 @@ class HeadingProfile {
   [[nodiscard]] double target_heading() const { return target_heading_; }  ///< [rad] (-pi, pi]
   /// [s] from start_time until the target heading is held.
   [[nodiscard]] double turn_duration() const;
-  void shift(double by) { start_time_ += by; }
 
  private:
   double start_time_ = 0.0;

@@ -139,15 +139,6 @@ TEST(HeadingProfile, BrakesARateBeyondTheLimit) {
   EXPECT_NEAR(profile.state(profile.turn_duration()).heading, 1.0, 1e-14);
 }
 
-TEST(HeadingProfile, ShiftsInTime) {
-  HeadingProfile profile{1.0, HeadingState{0.0, 0.0}, 1.0, 1.0, 1.0};
-  const HeadingState before = profile.state(1.75);
-  profile.shift(2.0);
-  EXPECT_EQ(profile.start_time(), 3.0);
-  EXPECT_EQ(profile.state(3.75).heading, before.heading);
-  EXPECT_EQ(profile.state(2.9).heading, 0.0);
-}
-
 TEST(HeadingProfile, TurnsIntoNumbersAndBackWithoutLoss) {
   RandomStream random{7};
   for (int i = 0; i < 500; ++i) {

@@ -119,11 +119,6 @@ void Trajectory::append(const QuinticPiece& piece) {
   duration_ += piece.duration;
 }
 
-void Trajectory::set_start_time(double start_time) {
-  heading_.shift(start_time - start_time_);
-  start_time_ = start_time;
-}
-
 Trajectory::LocalTime Trajectory::locate(double time) const {
   assert(!empty());
   double local_time = std::max(0.0, time - start_time_);

@@ -46,8 +46,6 @@ class Trajectory {
   /// Appends a piece with duration > 0; at most kMaxPieces.
   void append(const QuinticPiece& piece);
   void set_heading(const HeadingProfile& heading) { heading_ = heading; }
-  /// The same motion, begun at another time (the heading profile is shifted with it).
-  void set_start_time(double start_time);
 
   [[nodiscard]] bool empty() const { return piece_count_ == 0; }
   [[nodiscard]] int piece_count() const { return piece_count_; }

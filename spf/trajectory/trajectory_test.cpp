@@ -120,22 +120,6 @@ TEST(Trajectory, StandingStaysInPlace) {
   EXPECT_EQ(trajectory.length(), 0.0);
 }
 
-TEST(Trajectory, ShiftsMotionAndHeadingTogether) {
-  RandomStream random{8};
-  Trajectory trajectory = random_trajectory(random, 2, 1.0);
-  trajectory.set_heading(HeadingProfile{1.25, HeadingState{0.2, 0.1}, 2.0, 1.5, 3.0});
-  Trajectory shifted = trajectory;
-  shifted.set_start_time(101.0);
-  EXPECT_EQ(shifted.start_time(), 101.0);
-  EXPECT_EQ(shifted.heading().start_time(), 101.25);
-  for (const double since : {0.0, 0.4, 1.1}) {
-    // Rounding of times near 100 s, 1.4e-14 s, times slopes up to 1e3.
-    EXPECT_LT((shifted.position(101.0 + since) - trajectory.position(1.0 + since)).norm(), 1e-10);
-    EXPECT_NEAR(shifted.heading().state(101.0 + since).heading,
-                trajectory.heading().state(1.0 + since).heading, 1e-12);
-  }
-}
-
 TEST(Trajectory, PeaksOfSpeedAndAccelerationAreTight) {
   RandomStream random{21};
   constexpr int kSamples = 4000;

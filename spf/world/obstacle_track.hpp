@@ -14,7 +14,6 @@ struct ObstacleTrack {
   double cross_covariance = 0.0;    ///< [m^2/s] of position and velocity, per axis
   double position_diffusion = 0.0;  ///< [m^2/s] growth of the position variance: white velocity noise
   double velocity_diffusion = 0.0;  ///< [(m/s)^2/s] growth of the velocity variance: random-walk velocity
-  double speed_limit = 0.0;         ///< [m/s] largest speed seen or known, 0 = unknown
 
   /// Standard deviation per axis after `ahead` seconds [m]:
   /// sigma^2 = P + 2 C ahead + V ahead^2 + Dp ahead + Dv ahead^3 / 3; ahead < 0 counts as 0.

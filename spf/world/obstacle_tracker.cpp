@@ -110,7 +110,6 @@ void ObstacleTracker::begin_track(std::size_t slot, const Detection& detection, 
   if (detection.velocity_world) {
     track.state.velocity_world = *detection.velocity_world;
     track.velocity_variance = parameters_.least_sigma * parameters_.least_sigma;
-    track.speed_limit = detection.velocity_world->norm();
     memory.diffusion.see(time, detection.position_world, detection.position_sigma, *detection.velocity_world);
   } else {
     track.velocity_variance = parameters_.initial_speed * parameters_.initial_speed;
@@ -170,11 +169,6 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
     track.position_diffusion = memory.diffusion.position_diffusion();
     track.velocity_diffusion = memory.diffusion.velocity_diffusion();
   }
-  const double speed = track.state.velocity_world.norm();
-  track.speed_limit *= std::exp(-dt / parameters_.speed_memory);
-  const bool known_well =
-      track.velocity_variance < 0.05 * parameters_.initial_speed * parameters_.initial_speed;
-  if (known_well) track.speed_limit = std::max(track.speed_limit, speed);
 }
 
 void ObstacleTracker::drop_unseen(double time) {

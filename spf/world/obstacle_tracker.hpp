@@ -19,7 +19,6 @@ struct ObstacleTrackerParameters {
   double initial_speed = 1.0;  ///< [m/s] standard deviation per axis of the velocity of what was seen once
   double least_sigma = 1e-4;   ///< [m] positions are never taken as more exact
   double surprise = 3.0;  ///< [1] innovations that drift beyond so many sigma mean a new motion (a bounce)
-  double speed_memory = 60.0;   ///< [s] time constant with which the largest speed is forgotten
   bool learn_diffusion = true;  ///< false: the priors of `diffusion` are used as they are
   DiffusionParameters diffusion;
 
@@ -32,8 +31,6 @@ struct ObstacleTrackerParameters {
           "positions are never taken as more exact than this");
     visit("surprise", self.surprise, "1", Range{2.0, 20.0},
           "drift of the innovations in sigmas that starts the velocity afresh");
-    visit("speed_memory", self.speed_memory, "s", Range{1.0, 1e6},
-          "how long the largest speed of a track is remembered");
     visit("learn_diffusion", self.learn_diffusion, "learn how restless each obstacle is");
     visit.group("diffusion", self.diffusion);
   }

@@ -140,35 +140,24 @@ Eigen::Vector2d OccupancyMap::distance_gradient(const Eigen::Vector2d& position_
   return patch.slope() / frame_.resolution;
 }
 
-double OccupancyMap::min_distance_along(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                                        double enough) const {
-  return trace(a, b, enough, false);
-}
-
+// Distance falls by at most one metre a metre, so a place at distance d vouches for d - clearance around it;
+// a quarter of a cell is kept back for the interpolation, and is the smallest step.
 bool OccupancyMap::segment_clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance) const {
-  return trace(a, b, clearance, true) >= clearance;
-}
-
-// Distance falls by at most one metre a metre, so a place at distance d vouches for d - lowest around it; a
-// quarter of a cell is kept back for the interpolation, and is the smallest step.
-double OccupancyMap::trace(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double enough,
-                           bool stop_at_first) const {
+  double here = distance(a);
+  if (!(std::min(here, distance(b)) >= clearance)) return false;
   const Eigen::Vector2d along = b - a;
   const double length = along.norm();
-  double lowest = std::min(distance(a), distance(b));
-  if (!(length > 0.0) || (stop_at_first && lowest < enough)) return lowest;
-  if (!std::isfinite(length)) return -std::numeric_limits<double>::infinity();
+  if (!(length > 0.0)) return true;
+  if (!std::isfinite(length)) return false;
   const double smallest_step = 0.25 * frame_.resolution;
   const Eigen::Vector2d direction = along / length;
   double travelled = 0.0;
-  double here = distance(a);
-  while (true) {
-    travelled += std::max(here - std::min(lowest, enough) - smallest_step, smallest_step);
-    if (travelled >= length) return lowest;
+  while (here >= clearance) {
+    travelled += std::max(here - clearance - smallest_step, smallest_step);
+    if (travelled >= length) return true;
     here = distance(a + travelled * direction);
-    lowest = std::min(lowest, here);
-    if (stop_at_first && lowest < enough) return lowest;
   }
+  return false;
 }
 
 void OccupancyMap::integrate(const RangeScan& scan, const Pose2& sensor_pose_world,

@@ -74,13 +74,9 @@ class OccupancyMap {
     return frame_.nearest_node(position_world);
   }
 
-  /// Smallest distance along the segment from a to b [m] where it is below `enough`; otherwise some value
-  /// that is not below `enough`. Long free stretches cost one look-up each (sphere tracing); near surfaces it
-  /// looks every quarter of a cell, so it can miss a dip of an eighth of a cell.
-  [[nodiscard]] double min_distance_along(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                                          double enough) const;
-  /// Whether every place of the segment keeps this distance, as far as min_distance_along sees; stops at the
-  /// first place that does not.
+  /// Whether every place of the segment from a to b keeps this distance [m]. Long free stretches cost one
+  /// look-up each (sphere tracing); near surfaces it looks every quarter of a cell, so it can miss a dip of
+  /// an eighth of a cell. Stops at the first place that is too near.
   [[nodiscard]] bool segment_clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                    double clearance) const;
 
@@ -103,8 +99,6 @@ class OccupancyMap {
   struct Patch;
   template <class NodeValue>
   [[nodiscard]] Patch patch_of(const Eigen::Vector2d& position_world, const NodeValue& node_value) const;
-  [[nodiscard]] double trace(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double enough,
-                             bool stop_at_first) const;
   template <class SignedDistance>
   void add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,
                  const SignedDistance& signed_distance);

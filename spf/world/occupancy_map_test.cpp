@@ -316,7 +316,7 @@ TEST(OccupancyMap, LooksAtABoundedNumberOfCells) {
   EXPECT_EQ(map.revision(), revision);
 }
 
-TEST(OccupancyMap, SegmentsFindTheirSmallestDistance) {
+TEST(OccupancyMap, SegmentsKnowWhetherTheyAreClear) {
   OccupancyMap map = map_of(6.0);
   RandomStream random{21};
   for (int k = 0; k < 6; ++k) map.add_disc(draw_place(random, 5.0), random.uniform(0.2, 0.8));
@@ -326,13 +326,7 @@ TEST(OccupancyMap, SegmentsFindTheirSmallestDistance) {
     const Eigen::Vector2d b = draw_place(random, 6.0);
     double lowest = kInfinity;
     for (int s = 0; s <= 4000; ++s) lowest = std::min(lowest, map.distance(a + s / 4000.0 * (b - a)));
-    const double found = map.min_distance_along(a, b, 1.0);
     // Looks every 2.5 cm at least; between two looks the distance dips by at most half of that at slope 1.
-    if (lowest < 1.0) {
-      EXPECT_NEAR(found, lowest, 0.0125 + 1e-6) << "case " << k;
-    } else {
-      EXPECT_GE(found, 1.0) << "case " << k;
-    }
     const double clearance = random.uniform(0.1, 0.6);
     if (std::fabs(lowest - clearance) > 0.0126) {
       EXPECT_EQ(map.segment_clear(a, b, clearance), lowest >= clearance) << "case " << k;

@@ -28,17 +28,13 @@ void reflect(Motion& motion, double clearance, const OccupancyMap& map) {
 }  // namespace
 
 ObstaclePrediction::ObstaclePrediction(const ObstacleTrack& track, double horizon, double step,
-                                       const OccupancyMap* map, double velocity_decay)
+                                       const OccupancyMap* map)
     : track_{track} {
   assert(step > 0.0 && horizon >= 0.0);
   step_ = std::max(step, horizon / (kCapacity - 1));
   // The small number keeps a whole number of steps whole.
   count_ = std::clamp(static_cast<int>(std::ceil(horizon / step_ - 1e-9)) + 1, 1, kCapacity);
 
-  // The exact mean of a decaying velocity over one step.
-  const double kept = std::exp(-velocity_decay * step_);
-  const double travel =
-      velocity_decay * step_ > 1e-9 ? -std::expm1(-velocity_decay * step_) / velocity_decay : step_;
   // What already touches a surface must not be thrown off it at once (people lean on walls; maps have noise).
   const double clearance =
       map ? std::min(track.state.radius, map->distance(track.state.position_world)) : track.state.radius;
@@ -46,8 +42,7 @@ ObstaclePrediction::ObstaclePrediction(const ObstacleTrack& track, double horizo
   for (int k = 0; k < count_; ++k) {
     const auto at = static_cast<std::size_t>(k);
     position_[at] = motion.position;
-    motion.position += travel * motion.velocity;
-    motion.velocity *= kept;
+    motion.position += step_ * motion.velocity;
     if (map) reflect(motion, clearance, *map);
     velocity_[at] = (motion.position - position_[at]) / step_;
   }

@@ -19,11 +19,10 @@ class ObstaclePrediction {
   /// Mean: p + v ahead, thrown back by static surfaces of `map` (null: none): a centre that comes nearer than
   /// the obstacle's radius is pushed out along the distance gradient and leaves with that component of its
   /// velocity turned outwards. A centre that begins nearer than its radius is taken as it is, and turned when
-  /// it moves further in. `velocity_decay` [1/s] shrinks the expected velocity: a random walk held below a
-  /// speed limit forgets its heading. At most kCapacity samples: a longer horizon [s] is covered by longer
+  /// it moves further in. At most kCapacity samples: a longer horizon [s] is covered by longer
   /// steps [s]. Needs step > 0, horizon >= 0.
   ObstaclePrediction(const ObstacleTrack& track, double horizon, double step = 0.1,
-                     const OccupancyMap* map = nullptr, double velocity_decay = 0.0);
+                     const OccupancyMap* map = nullptr);
 
   /// Linear between samples; before 0 the value at 0, beyond the last sample straight on at its velocity [m].
   [[nodiscard]] Eigen::Vector2d position(double ahead) const;

@@ -67,11 +67,6 @@ TEST(ObstaclePrediction, StaysOutOfBoxes) {
   }
 }
 
-TEST(ObstaclePrediction, DecaysAsAsked) {
-  const ObstaclePrediction prediction{track_at({0.0, 0.0}, {1.0, 0.0}), 4.0, 0.1, nullptr, 0.5};
-  EXPECT_NEAR(prediction.position(2.0).x(), (1.0 - std::exp(-1.0)) / 0.5, 1e-9);
-}
-
 TEST(ObstaclePrediction, LongHorizonsGetLongerSteps) {
   const ObstaclePrediction prediction{track_at({0.0, 0.0}, {1.0, 0.0}), 100.0};
   EXPECT_EQ(prediction.sample_count(), ObstaclePrediction::kCapacity);

@@ -248,11 +248,6 @@ void SensedLayer::restore(const Hit& vanished, std::size_t first_node, std::size
   }
 }
 
-bool SensedLayer::occupied(int i, int j) const {
-  const int tile = tile_of_[tile_slot(i, j)];
-  return tile >= 0 && tiles_[static_cast<std::size_t>(tile)].log_odds[cell_slot(i, j)] >= occupied_from_;
-}
-
 std::vector<Eigen::Vector2d> SensedLayer::occupied_points() const {
   std::vector<Eigen::Vector2d> points;
   for (const Tile& tile : tiles_) {

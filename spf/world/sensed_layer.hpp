@@ -36,7 +36,6 @@ class SensedLayer {
     const int tile = tile_of_[tile_slot(i, j)];
     return tile < 0 ? max_distance_ : tiles_[static_cast<std::size_t>(tile)].distance[cell_slot(i, j)];
   }
-  [[nodiscard]] bool occupied(int i, int j) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> occupied_points() const;
 
  private:

@@ -52,7 +52,6 @@ class NodeSet {
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] int pieces() const { return pieces_; }
-  [[nodiscard]] int intervals_per_piece() const { return intervals_; }
   [[nodiscard]] const NodeSample& operator[](int index) const {
     return samples_[static_cast<std::size_t>(index)];
   }

@@ -110,8 +110,7 @@ std::int32_t GridSearch::nearest_free(const OccupancyMap& map, const Eigen::Vect
   return best;
 }
 
-// Octile distance: never more than the cost, since a metre costs at least one. A little is taken off, so that
-// rounding does not make it so.
+// Octile distance: never more than the cost. A little is taken off, so that rounding does not make it so.
 float GridSearch::estimate(std::int32_t from, std::int32_t to) const {
   const int di = std::abs(from % window_.width - to % window_.width);
   const int dj = std::abs(from / window_.width - to / window_.width);
@@ -119,17 +118,9 @@ float GridSearch::estimate(std::int32_t from, std::int32_t to) const {
   return static_cast<float>((1.0 - 1e-5) * resolution_ * cells);
 }
 
-double GridSearch::price(double distance) const {
-  const double lack = parameters_.comfort_distance - distance;
-  if (lack <= 0.0) return 1.0;
-  const double part = std::min(lack / parameters_.comfort_distance, 1.0);
-  return 1.0 + parameters_.comfort_weight * part * part;
-}
-
 void GridSearch::expand(const OccupancyMap& map, const Entry& entry, std::int32_t goal) {
   const int i = entry.node % window_.width;
   const int j = entry.node / window_.width;
-  const double here = price(node_distance(map, entry.node));
   for (int dj = -1; dj <= 1; ++dj) {
     for (int di = -1; di <= 1; ++di) {
       const bool inside = i + di >= 0 && j + dj >= 0 && i + di < window_.width && j + dj < window_.height;
@@ -138,7 +129,7 @@ void GridSearch::expand(const OccupancyMap& map, const Entry& entry, std::int32_
       const double distance = node_distance(map, node);
       if (distance < clearance_) continue;
       const double length = resolution_ * (di != 0 && dj != 0 ? kDiagonal : 1.0);
-      offer(node, entry.node, entry.cost + static_cast<float>(length * 0.5 * (here + price(distance))), goal);
+      offer(node, entry.node, entry.cost + static_cast<float>(length), goal);
     }
   }
 }

@@ -14,21 +14,14 @@
 namespace spf {
 
 struct GridSearchParameters {
-  int window_nodes = 65536;       ///< [1] most nodes of a search window: 13 bytes a node
-  int node_budget = 20000;        ///< [1] most nodes expanded in one search: 112 bytes each
-  double comfort_distance = 0.0;  ///< [m] nearer to surfaces than this a metre costs more; 0 = shortest way
-  double comfort_weight =
-      1.0;  ///< [1] extra cost of a metre at distance 0, falling quadratically to comfort_distance
+  int window_nodes = 65536;    ///< [1] most nodes of a search window: 13 bytes a node
+  int node_budget = 20000;     ///< [1] most nodes expanded in one search: 112 bytes each
   double push_distance = 1.0;  ///< [m] start and goal on blocked ground are moved at most this far
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("window_nodes", self.window_nodes, "1", Range{16, 67108864}, "most nodes of a search window");
     visit("node_budget", self.node_budget, "1", Range{1, 67108864}, "most nodes expanded in one search");
-    visit("comfort_distance", self.comfort_distance, "m", Range{0.0, 20.0},
-          "distance to surfaces below which a metre of the way costs more");
-    visit("comfort_weight", self.comfort_weight, "1", Range{0.0, 100.0},
-          "extra cost of a metre right at a surface");
     visit("push_distance", self.push_distance, "m", Range{0.0, 100.0},
           "how far start and goal are moved to the nearest free node");
   }
@@ -51,7 +44,7 @@ struct GridSearchRequest {
 
 struct GridSearchResult {
   GridSearchOutcome outcome = GridSearchOutcome::no_path;
-  double cost = 0.0;  ///< [m] length, more where comfort was given up
+  double cost = 0.0;  ///< [m] length
   int expanded = 0;   ///< nodes taken from the heap for good
 };
 
@@ -80,7 +73,6 @@ class GridSearch {
   [[nodiscard]] std::int32_t nearest_free(const OccupancyMap& map, const Eigen::Vector2d& wanted) const;
   [[nodiscard]] float estimate(std::int32_t from, std::int32_t to) const;
   [[nodiscard]] double node_distance(const OccupancyMap& map, std::int32_t node) const;
-  [[nodiscard]] double price(double distance) const;
   void expand(const OccupancyMap& map, const Entry& entry, std::int32_t goal);
   void offer(std::int32_t node, std::int32_t parent, float cost, std::int32_t goal);
   void trace_back(const OccupancyMap& map, std::int32_t goal);

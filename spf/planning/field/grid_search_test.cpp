@@ -25,10 +25,9 @@ OccupancyMap cluttered_map(std::uint64_t seed, int discs) {
   return map;
 }
 
-/// Oracle: plain Dijkstra in doubles over the same graph, with a price per metre given by the caller.
-template <class Price>
+/// Oracle: plain Dijkstra in doubles over the same graph, by length.
 double dijkstra(const OccupancyMap& map, const Eigen::Vector2i& start, const Eigen::Vector2i& goal,
-                double clearance, const Price& price) {
+                double clearance) {
   const int width = map.frame().width;
   const int height = map.frame().height;
   std::vector<double> cost(static_cast<std::size_t>(width * height), std::numeric_limits<double>::infinity());
@@ -47,9 +46,7 @@ double dijkstra(const OccupancyMap& map, const Eigen::Vector2i& start, const Eig
       const int di = n % 3 - 1;
       const int dj = n / 3 - 1;
       if (!map.frame().contains(i + di, j + dj) || map.node_distance(i + di, j + dj) < clearance) continue;
-      const double metres = map.frame().resolution * std::hypot(di, dj);
-      const double next =
-          spent + metres * 0.5 * (price(map.node_distance(i, j)) + price(map.node_distance(i + di, j + dj)));
+      const double next = spent + map.frame().resolution * std::hypot(di, dj);
       if (next >= cost[slot(i + di, j + dj)]) continue;
       cost[slot(i + di, j + dj)] = next;
       open.emplace(next, (j + dj) * width + i + di);
@@ -58,12 +55,8 @@ double dijkstra(const OccupancyMap& map, const Eigen::Vector2i& start, const Eig
   return cost[slot(goal.x(), goal.y())];
 }
 
-void expect_optimal(const GridSearchParameters& parameters) {
-  const auto price = [&](double distance) {
-    const double lack = std::clamp(1.0 - distance / std::max(parameters.comfort_distance, 1e-9), 0.0, 1.0);
-    return parameters.comfort_distance > 0.0 ? 1.0 + parameters.comfort_weight * lack * lack : 1.0;
-  };
-  GridSearch search{parameters};
+TEST(GridSearch, FindsTheShortestWay) {
+  GridSearch search;
   int found = 0;
   int none = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -80,7 +73,7 @@ void expect_optimal(const GridSearchParameters& parameters) {
         map.nearest_node(search.path().empty() ? request.start_world : search.path().front());
     const Eigen::Vector2i goal =
         map.nearest_node(search.path().empty() ? request.goal_world : search.path().back());
-    const double expected = dijkstra(map, start, goal, request.clearance, price);
+    const double expected = dijkstra(map, start, goal, request.clearance);
     if (result.outcome == GridSearchOutcome::no_path) {
       EXPECT_EQ(expected, std::numeric_limits<double>::infinity()) << seed;
       ++none;
@@ -99,17 +92,6 @@ void expect_optimal(const GridSearchParameters& parameters) {
   }
   EXPECT_GT(found, 10);
   EXPECT_GT(none, 3);
-}
-
-TEST(GridSearch, FindsTheShortestWay) {
-  expect_optimal(GridSearchParameters{});
-}
-
-TEST(GridSearch, FindsTheMostComfortableWay) {
-  GridSearchParameters parameters;
-  parameters.comfort_distance = 0.6;
-  parameters.comfort_weight = 5.0;
-  expect_optimal(parameters);
 }
 
 TEST(GridSearch, MovesEndsToTheNearestFreeNodes) {

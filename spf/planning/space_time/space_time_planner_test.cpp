@@ -275,7 +275,6 @@ class RandomRequests {
     track.position_variance = std::abs(number());
     track.velocity_variance = random_.uniform(0.0, 1.0);
     track.velocity_diffusion = random_.uniform(0.0, 0.5);
-    track.speed_limit = random_.uniform() < 0.5 ? 0.0 : 1.0;
     return track;
   }
   Peer peer(int id, const Eigen::Vector2d& robot) {
