@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/plane.hpp"
+
 namespace spf::sim {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// True when `point`, known to lie on the segment's line, lies between its ends.
 bool between_ends(const Eigen::Vector2d& point, const Segment& segment) {

@@ -6,15 +6,12 @@
 
 #include "sim/geometry.hpp"
 #include "spf/math/angles.hpp"
+#include "spf/math/plane.hpp"
 
 namespace spf::sim {
 namespace {
 
 constexpr double kNoReturn = std::numeric_limits<double>::infinity();
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 void append_sides(const Box& box, std::vector<Segment>& segments) {
   const Eigen::Vector2d upper_left{box.low.x(), box.high.y()};

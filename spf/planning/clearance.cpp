@@ -13,7 +13,7 @@ constexpr double kSlack =
     1e-4;  // [m] by which a distance that is too small already may shrink (rounding, sampling)
 
 /// What approaches whom, and how fast at most.
-struct Encounter {
+struct Subject {
   ConflictKind kind;
   int id;
   double approach_speed;  // [m/s]
@@ -32,16 +32,16 @@ struct WalkEnd {
 /// approach_speed. A conflict is a clearance below `floor`, or below 0 once it has been above; a start below
 /// the floor lowers it. An infinite floor below only looks for the least clearance.
 template <class ClearanceAt>
-WalkEnd walk(const Trajectory& trajectory, double from, const Encounter& encounter, double floor,
+WalkEnd walk(const Trajectory& trajectory, double from, const Subject& subject, double floor,
              const ClearanceAt& clearance) {
   MovingDisc self;
   self.trajectory = &trajectory;
   DiscCursor cursor{self};
-  const double slowness = 1.0 / std::max(encounter.approach_speed, 1e-3);
+  const double slowness = 1.0 / std::max(subject.approach_speed, 1e-3);
   const bool only_looking = std::isinf(floor);
   WalkEnd end;
   bool inside = false;
-  for (double time = from; time <= encounter.until;) {
+  for (double time = from; time <= subject.until;) {
     cursor.move_to(time);
     const double now = clearance(time, cursor.position());
     if (time == from) floor = std::min(floor, now);
@@ -54,31 +54,30 @@ WalkEnd walk(const Trajectory& trajectory, double from, const Encounter& encount
     }
     inside = inside || now < 0.0;
     if (inside && now >= 0.0 && !only_looking) floor = 0.0;
-    if (time >= encounter.until) break;
-    time =
-        std::min(encounter.until, time + std::max(ClearanceModel::kShortestStep, std::abs(now) * slowness));
+    if (time >= subject.until) break;
+    time = std::min(subject.until, time + std::max(ClearanceModel::kShortestStep, std::abs(now) * slowness));
   }
   return end;
 }
 
-/// One encounter of a check: the plain rule first, and after a conflict "no worse than the alternative".
+/// Checks against one thing: the plain rule first, and after a conflict "no worse than the alternative".
 template <class ClearanceAt>
-void check_encounter(const Trajectory& trajectory, const ClearanceWindow& window, Encounter encounter,
-                     double least_floor, const ClearanceAt& clearance, ClearanceReport& report) {
-  if (!report.clear()) encounter.until = std::min(encounter.until, report.time);
-  WalkEnd end = walk(trajectory, window.from, encounter, 0.0, clearance);
+void check_against(const Trajectory& trajectory, const ClearanceWindow& window, Subject subject,
+                   double least_floor, const ClearanceAt& clearance, ClearanceReport& report) {
+  if (!report.clear()) subject.until = std::min(subject.until, report.time);
+  WalkEnd end = walk(trajectory, window.from, subject, 0.0, clearance);
   if (end.conflict && window.alternative != nullptr && !window.alternative->empty()) {
-    Encounter other = encounter;
-    other.until = std::min(encounter.until, window.alternative->end_time());
+    Subject other = subject;
+    other.until = std::min(subject.until, window.alternative->end_time());
     other.approach_speed += speed_bound(*window.alternative);
     const double unlimited = -std::numeric_limits<double>::infinity();
     const double floor = walk(*window.alternative, window.from, other, unlimited, clearance).least;
-    if (floor < 0.0) end = walk(trajectory, window.from, encounter, std::max(floor, least_floor), clearance);
+    if (floor < 0.0) end = walk(trajectory, window.from, subject, std::max(floor, least_floor), clearance);
   }
   report.min_clearance = std::min(report.min_clearance, end.least);
   if (!end.conflict || (!report.clear() && report.time <= end.time)) return;
-  report.kind = encounter.kind;
-  report.id = encounter.id;
+  report.kind = subject.kind;
+  report.id = subject.id;
   report.time = end.time;
   report.clearance = end.clearance;
 }
@@ -188,7 +187,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
   // No alternative justifies contact, which is what the whole margin lost means.
   constexpr double kLosable = 0.9;
   const double static_margin = window.margin_scale * static_margin_;
-  check_encounter(
+  check_against(
       trajectory, window,
       {ConflictKind::static_map, -1, kInterpolationSteepness * speed, window.static_until},
       -kLosable * static_margin,
@@ -202,7 +201,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
     const ConflictKind kind = disc.is_peer ? ConflictKind::peer : ConflictKind::obstacle;
     const double margin = disc.is_peer ? peer_margin : 0.0;
     const double floor = disc.is_peer ? -kLosable * peer_margin : -std::numeric_limits<double>::max();
-    check_encounter(
+    check_against(
         trajectory, window, {kind, disc.id, speed + disc.speed_bound, window.moving_until}, floor,
         [&](double time, const Eigen::Vector2d& p) {
           other.move_to(time);
@@ -213,7 +212,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
   // To be in the field is no contact yet.
   if (!window.fields) return report;
   for (const DangerRegion& region : regions_)
-    check_encounter(
+    check_against(
         trajectory, window, {ConflictKind::obstacle, region.id, speed, window.moving_until},
         -std::numeric_limits<double>::max(),
         [&](double, const Eigen::Vector2d& p) { return region.field.clearance(p, region.threshold); },

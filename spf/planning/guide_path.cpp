@@ -48,7 +48,7 @@ GuidePath::Cell GuidePath::cell_of(const Eigen::Vector2d& position_world) const 
   const int j = std::min(static_cast<int>(v), window_.height - 2);
   const double x = u - i;
   const double y = v - j;
-  const std::int32_t first = j * window_.width + i;
+  const std::int32_t first = window_.index(i, j);
   cell.node = {first, first + 1, first + window_.width, first + window_.width + 1};
   cell.weight = {(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y};
   cell.slope[0] = per_metre * Eigen::Vector2d{y - 1.0, x - 1.0};

@@ -34,7 +34,7 @@ void GuidePath::for_neighbours(std::int32_t index, const Visit& visit) const {
   const int j = index / window_.width;
   for (int dj = -1; dj <= 1; ++dj) {
     for (int di = -1; di <= 1; ++di) {
-      if ((di != 0 || dj != 0) && window_.contains(i + di, j + dj)) visit(index + dj * window_.width + di);
+      if ((di != 0 || dj != 0) && window_.contains(i + di, j + dj)) visit(window_.index(i + di, j + dj));
     }
   }
 }
@@ -80,11 +80,11 @@ bool GuidePath::flood_reached(const Eigen::Vector2d& position_world) const {
     for (int dj = -reach; dj <= 1 + reach; ++dj) {
       for (int di = -reach; di <= 1 + reach; ++di) {
         if (!window_.contains(i + di, j + dj)) continue;
-        if (flood_.state[static_cast<std::size_t>((j + dj) * window_.width + i + di)] == settled) return true;
+        if (flood_.state[static_cast<std::size_t>(window_.index(i + di, j + dj))] == settled) return true;
       }
     }
     const Eigen::Vector2i nearest = window_.nearest_node(position_world);
-    if (flood_.state[static_cast<std::size_t>(nearest.y() * window_.width + nearest.x())] == unseen)
+    if (flood_.state[static_cast<std::size_t>(window_.index(nearest.x(), nearest.y()))] == unseen)
       return false;
   }
   return false;
@@ -190,7 +190,7 @@ void GuidePath::seed(const OccupancyMap& map) {
     for (int j = centre.y() - reach; j <= centre.y() + reach; ++j) {
       for (int i = centre.x() - reach; i <= centre.x() + reach; ++i) {
         if (!window_.contains(i, j)) continue;
-        const std::int32_t index = j * window_.width + i;
+        const std::int32_t index = window_.index(i, j);
         if (flood_.state[static_cast<std::size_t>(index)] == unseen && in_view(map, index, goal))
           offer(index, goal);
       }

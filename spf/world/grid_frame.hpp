@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
+
 namespace spf {
 
 /// Axis-aligned grid; node (i, j) stands at origin + resolution * (i, j).
@@ -19,6 +21,8 @@ struct GridFrame {
                                           double resolution);
 
   [[nodiscard]] bool contains(int i, int j) const { return 0 <= i && i < width && 0 <= j && j < height; }
+  /// Number of a node, row by row.
+  [[nodiscard]] std::int32_t index(int i, int j) const { return j * width + i; }
   /// Position of a node [m].
   [[nodiscard]] Eigen::Vector2d node_position(int i, int j) const {
     return {origin_world.x() + resolution * i, origin_world.y() + resolution * j};
