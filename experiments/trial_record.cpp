@@ -8,81 +8,78 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
+Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
-Json to_json(const DurationHistogram& histogram) {
-  Json buckets = Json::array();
-  for (const auto& [bucket, count] : histogram.buckets()) buckets.push_back({bucket, count});
-  return {{"min", number(histogram.minimum())}, {"max", number(histogram.maximum())}, {"buckets", buckets}};
-}
-Json to_json(const RobotRecord& robot) {
-  return {{"arrived", robot.arrived},
-          {"path_length", number(robot.path_length)},
-          {"travel_time", number(robot.travel_time)},
-          {"path_length_ratio", number(robot.path_length_ratio)},
-          {"travel_time_ratio", number(robot.travel_time_ratio)},
-          {"plans", robot.plans},
-          {"failed_plans", robot.failed_plans},
-          {"optimiser_calls", robot.optimiser_calls},
-          {"inner_iterations", robot.inner_iterations}};
-}
-Json to_json(const ContactRecord& contact) {
-  return {{"time", number(contact.time)},
-          {"robot", contact.robot},
-          {"with", contact.with},
-          {"other", contact.other},
-          {"x", number(contact.position.x())},
-          {"y", number(contact.position.y())},
-          {"robot_speed", number(contact.robot_speed)},
-          {"other_speed", number(contact.other_speed)}};
-}
-Json to_json(const CauseRecord& cause) {
-  return {{"robot", cause.robot},
-          {"last_plan", cause.last_plan},
-          {"plan_age", number(cause.plan_age)},
-          {"stand_reason", cause.stand_reason},
-          {"culprit", cause.culprit}};
-}
+
+/// Visitor that writes one object.
+class RecordWriter {
+ public:
+  void number(const char* key, double value, Range /*range*/) { json_[key] = number_or_null(value); }
+  void maybe_number(const char* key, double value, Range /*range*/) { json_[key] = number_or_null(value); }
+  template <class Whole, class... Limits>
+  void whole(const char* key, Whole value, Limits... /*limits*/) {
+    json_[key] = value;
+  }
+  void robot(const char* key, int value, int /*least*/) { json_[key] = value; }
+  void robot_count(const char* key, int value) { json_[key] = value; }
+  void seed(const char* key, std::uint64_t value) { json_[key] = value; }
+  void flag(const char* key, bool value) { json_[key] = value; }
+  template <class... Limits>
+  void text(const char* key, const std::string& value, Limits... /*limits*/) {
+    json_[key] = value;
+  }
+  void digits(const char* key, const std::string& value, std::size_t /*least*/) { json_[key] = value; }
+  template <class E>
+  void choice(const char* key, E value) {
+    json_[key] = enum_name(value);
+  }
+  template <class E>
+  void name(const char* key, const std::string& value) {
+    json_[key] = value;
+  }
+  void histogram(const char* key, const DurationHistogram& value) {
+    Json buckets = Json::array();
+    for (const auto& [bucket, count] : value.buckets()) buckets.push_back({bucket, count});
+    json_[key] = {{"min", number_or_null(value.minimum())},
+                  {"max", number_or_null(value.maximum())},
+                  {"buckets", buckets}};
+  }
+  template <class Struct, class... Limits>
+  void list(const char* key, const std::vector<Struct>& values, Limits... /*limits*/) {
+    Json all = Json::array();
+    for (const Struct& value : values) all.push_back(written(value));
+    json_[key] = std::move(all);
+  }
+  template <class Struct>
+  void object(const char* key, const std::optional<Struct>& value) {
+    json_[key] = written(*value);
+  }
+  template <class Struct>
+  void object_or_null(const char* key, const std::optional<Struct>& value) {
+    json_[key] = value ? written(*value) : Json(nullptr);
+  }
+  template <class Struct>
+  void part(const std::optional<Struct>& value) {
+    Struct::visit_fields(*value, *this);
+  }
+  [[nodiscard]] bool present(const char* /*key*/, bool condition) const { return condition; }
+
+  template <class Struct>
+  [[nodiscard]] static Json written(const Struct& value) {
+    RecordWriter writer;
+    Struct::visit_fields(value, writer);
+    return std::move(writer.json_);
+  }
+
+ private:
+  Json json_ = Json::object();
+};
+
 }  // namespace
 
 std::string to_json_line(const TrialRecord& record) {
-  Json robots = Json::array();
-  for (const RobotRecord& robot : record.robots) robots.push_back(to_json(robot));
-  Json json{{"family", record.key.family},
-            {"method", record.key.method},
-            {"noise", record.key.noise},
-            {"level", number(record.key.level)},
-            {"tracking", record.key.tracking},
-            {"seed", record.key.seed},
-            {"trial", record.key.trial},
-            {"outcome", enum_name(record.outcome)},
-            {"failure", record.failure},
-            {"contact", record.contact ? to_json(*record.contact) : Json(nullptr)},
-            {"contacts", record.contacts},
-            {"hits_while_standing", record.hits_while_standing},
-            {"sim_time", number(record.sim_time)},
-            {"dynamic_distance", number(record.dynamic_distance)},
-            {"dynamic_clearance", number(record.dynamic_clearance)},
-            {"robots", robots},
-            {"digest", record.digest},
-            {"plan_time", to_json(record.plan_time)},
-            {"control_time", to_json(record.control_time)},
-            {"wall_time", number(record.wall_time)}};
-  if (record.crossing) {  // only of PED
-    json["crossings"] = record.crossing->crossings;
-    json["crossings_ok"] = record.crossing->crossings_ok;
-    json["contacts_moving"] = record.crossing->contacts_moving;
-    json["robot_minutes"] = number(record.crossing->robot_minutes);
-  }
-  // Only campaigns have these.
-  if (!record.key.condition.empty()) json["condition"] = record.key.condition;
-  if (!record.setup.empty()) json["setup"] = record.setup;
-  if (std::isfinite(record.wheel_share)) json["wheel_share"] = record.wheel_share;
-  if (record.new_plan_time.count() > 0) json["new_plan_time"] = to_json(record.new_plan_time);
-  if (record.optimiser_time.count() > 0) json["optimiser_time"] = to_json(record.optimiser_time);
-  if (record.cause) json["cause"] = to_json(*record.cause);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return RecordWriter::written(record).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 bool same_result(const TrialRecord& a, const TrialRecord& b) {

@@ -17,15 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Limits far above any trial; sums over a million trials stay whole numbers.
-constexpr std::size_t kMostRobots = 10'000;
-constexpr std::size_t kLongestName = 200;      // bytes
-constexpr std::size_t kLongestText = 1 << 20;  // bytes
-constexpr int kDeepest = 6;                    // levels of brackets
-constexpr double kLongestTime = 1e6;           // [s]
-constexpr double kLongestWay = 1e9;            // [m]
-constexpr std::int64_t kMostCalls = 1'000'000'000'000;
-constexpr std::int64_t kMostContacts = 100'000;
+constexpr int kDeepest = 6;        // levels of brackets
 constexpr int kLastBucket = 3000;  // of a histogram: 10^17 s
 
 /// What is wrong with a value, by its key.
@@ -62,13 +54,10 @@ class Field {
   }
   [[nodiscard]] bool unknown() const { return json_.is_null(); }
 
-  [[nodiscard]] double number(double low, double high) const {
+  [[nodiscard]] double number(Range range) const {
     const double value = json_.is_number() ? json_.get<double>() : kNotKnown;
-    if (!(value >= low && value <= high)) refuse("must be a number in " + to_text(Range{low, high}));
+    if (!range.contains(value)) refuse("must be a number in " + to_text(range));
     return value;
-  }
-  [[nodiscard]] double number_or_unknown(double low, double high) const {
-    return unknown() ? kNotKnown : number(low, high);
   }
   [[nodiscard]] std::int64_t whole(std::int64_t low, std::int64_t high) const {
     const bool fits = json_.is_number_unsigned()
@@ -78,9 +67,6 @@ class Field {
     if (value < low || value > high)
       refuse("must be a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
     return value;
-  }
-  [[nodiscard]] int small(std::int64_t low, std::int64_t high) const {
-    return static_cast<int>(whole(low, high));
   }
   [[nodiscard]] std::uint64_t seed() const {
     if (!json_.is_number_unsigned()) refuse("must be a whole number of at least 0");
@@ -96,22 +82,14 @@ class Field {
       refuse("must be text of " + std::to_string(least) + " to " + std::to_string(most) + " bytes");
     return json_.get<std::string>();
   }
-  [[nodiscard]] std::string one_of(const std::vector<std::string>& names) const {
-    std::string listed;
-    for (const std::string& name : names) {
-      if (json_.is_string() && json_.get_ref<const std::string&>() == name) return name;
-      listed += (listed.empty() ? "" : ", ") + name;
-    }
-    refuse("must be one of " + listed);
-  }
   template <class E>
   [[nodiscard]] E choice() const {
-    std::vector<std::string> names;
-    for (const auto& entry : EnumNames<E>::values) names.emplace_back(entry.second);
-    const std::string name = one_of(names);
-    return std::find_if(EnumNames<E>::values.begin(), EnumNames<E>::values.end(),
-                        [&name](const auto& entry) { return entry.second == name; })
-        ->first;
+    std::string listed;
+    for (const auto& [value, name] : EnumNames<E>::values) {
+      if (json_.is_string() && json_.get_ref<const std::string&>() == name) return value;
+      listed += (listed.empty() ? "" : ", ") + std::string{name};
+    }
+    refuse("must be one of " + listed);
   }
   /// Up to 16 digits of a hash.
   [[nodiscard]] std::string hexadecimal(std::size_t least) const {
@@ -132,104 +110,85 @@ class Field {
 };
 
 DurationHistogram histogram_of(const Field& field) {
+  constexpr Range kDuration{0.0, 1e9};
   std::map<int, std::int64_t> buckets;
-  std::int64_t left = kMostCalls;
+  std::int64_t left = record_limits::kMostCalls;
   for (const Field& bucket : field.at("buckets").items(0, kLastBucket + 1)) {
     const std::vector<Field> pair = bucket.items(2, 2);
     const std::int64_t count = pair[1].whole(1, left);
     left -= count;
-    buckets[pair[0].small(0, kLastBucket)] += count;
+    buckets[static_cast<int>(pair[0].whole(0, kLastBucket))] += count;
   }
   if (buckets.empty()) return {};
-  const double least = field.at("min").number(0.0, 1e9);
-  return DurationHistogram::from_buckets(std::move(buckets), least, field.at("max").number(least, 1e9));
+  const double least = field.at("min").number(kDuration);
+  return DurationHistogram::from_buckets(std::move(buckets), least,
+                                         field.at("max").number({least, kDuration.high}));
 }
 
-RobotRecord robot_of(const Field& field) {
-  RobotRecord robot;
-  robot.arrived = field.at("arrived").flag();
-  robot.path_length = field.at("path_length").number(0.0, kLongestWay);
-  robot.travel_time = field.at("travel_time").number(0.0, kLongestTime);
-  robot.path_length_ratio = field.at("path_length_ratio").number_or_unknown(0.0, kLongestWay);
-  robot.travel_time_ratio = field.at("travel_time_ratio").number_or_unknown(0.0, kLongestWay);
-  robot.plans = field.at("plans").whole(0, kMostCalls);
-  robot.failed_plans = field.at("failed_plans").whole(0, kMostCalls);
-  robot.optimiser_calls = field.at("optimiser_calls").whole(0, kMostCalls);
-  robot.inner_iterations = field.at("inner_iterations").whole(0, kMostCalls);
-  return robot;
-}
+/// Visitor that reads one object.
+class RecordReader {
+ public:
+  /// `line` is the whole record, which knows the number of robots.
+  RecordReader(const Field& field, const Field& line) : field_{field}, line_{line} {}
 
-ContactRecord contact_of(const Field& field, std::int64_t robots) {
-  ContactRecord contact;
-  contact.time = field.at("time").number(0.0, kLongestTime);
-  contact.robot = field.at("robot").small(0, robots - 1);
-  contact.with = enum_name(field.at("with").choice<sim::ContactWith>());
-  contact.other = field.at("other").small(-1, 1'000'000'000);
-  contact.position = {field.at("x").number(-kLongestWay, kLongestWay),
-                      field.at("y").number(-kLongestWay, kLongestWay)};
-  contact.robot_speed = field.at("robot_speed").number(0.0, kLongestWay);
-  contact.other_speed = field.at("other_speed").number(0.0, kLongestWay);
-  return contact;
-}
+  void number(const char* key, double& value, Range range) const { value = field_.at(key).number(range); }
+  void maybe_number(const char* key, double& value, Range range) const {
+    const Field field = field_.at(key);
+    value = field.unknown() ? kNotKnown : field.number(range);
+  }
+  template <class Whole>
+  void whole(const char* key, Whole& value, std::int64_t low, std::int64_t high) const {
+    value = static_cast<Whole>(field_.at(key).whole(low, high));
+  }
+  void robot(const char* key, int& value, int least) const { whole(key, value, least, robots() - 1); }
+  void robot_count(const char* key, int& value) const { whole(key, value, 0, robots()); }
+  void seed(const char* key, std::uint64_t& value) const { value = field_.at(key).seed(); }
+  void flag(const char* key, bool& value) const { value = field_.at(key).flag(); }
+  void text(const char* key, std::string& value, std::size_t least, std::size_t most) const {
+    value = field_.at(key).text(least, most);
+  }
+  void digits(const char* key, std::string& value, std::size_t least) const {
+    value = field_.at(key).hexadecimal(least);
+  }
+  template <class E>
+  void choice(const char* key, E& value) const {
+    value = field_.at(key).choice<E>();
+  }
+  template <class E>
+  void name(const char* key, std::string& value) const {
+    value = enum_name(field_.at(key).choice<E>());
+  }
+  void histogram(const char* key, DurationHistogram& value) const { value = histogram_of(field_.at(key)); }
+  template <class Struct>
+  void list(const char* key, std::vector<Struct>& values, std::size_t least, std::size_t most) const {
+    for (const Field& item : field_.at(key).items(least, most)) read(item, values.emplace_back());
+  }
+  template <class Struct>
+  void object(const char* key, std::optional<Struct>& value) const {
+    read(field_.at(key), value.emplace());
+  }
+  template <class Struct>
+  void object_or_null(const char* key, std::optional<Struct>& value) const {
+    if (!field_.at(key).unknown()) object(key, value);
+  }
+  template <class Struct>
+  void part(std::optional<Struct>& value) const {
+    Struct::visit_fields(value.emplace(), *this);
+  }
+  [[nodiscard]] bool present(const char* key, bool /*condition*/) const { return field_.has(key); }
 
-CauseRecord cause_of(const Field& field, std::int64_t robots) {
-  CauseRecord cause;
-  cause.robot = field.at("robot").small(-1, robots - 1);
-  cause.last_plan = field.at("last_plan").text(0, kLongestName);
-  cause.plan_age = field.at("plan_age").number_or_unknown(0.0, kLongestTime);
-  cause.stand_reason = field.at("stand_reason").text(0, kLongestName);
-  cause.culprit = field.at("culprit").small(-1, 1'000'000'000);
-  return cause;
-}
+ private:
+  [[nodiscard]] std::int64_t robots() const {
+    return static_cast<std::int64_t>(line_.at("robots").items(1, record_limits::kMostRobots).size());
+  }
+  template <class Struct>
+  void read(const Field& field, Struct& value) const {
+    Struct::visit_fields(value, RecordReader{field, line_});
+  }
 
-CrossingRecord crossing_of(const Field& record, std::int64_t robots) {
-  CrossingRecord crossing;
-  crossing.crossings = record.at("crossings").small(0, robots);
-  crossing.crossings_ok = record.at("crossings_ok").small(0, crossing.crossings);
-  crossing.contacts_moving = record.at("contacts_moving").small(0, kMostContacts);
-  crossing.robot_minutes = record.at("robot_minutes").number(0.0, kLongestTime * kMostRobots);
-  return crossing;
-}
-
-TrialKey key_of(const Field& record) {
-  TrialKey key;
-  key.family = record.at("family").text(1, kLongestName);
-  key.method = record.at("method").text(1, kLongestName);
-  key.noise = enum_name(record.at("noise").choice<sim::NoiseModel>());
-  key.level = record.at("level").number(0.0, 100.0);
-  key.tracking = enum_name(record.at("tracking").choice<sim::TrackingMode>());
-  key.seed = record.at("seed").seed();
-  key.trial = record.at("trial").small(0, 2'000'000'000);
-  if (record.has("condition")) key.condition = record.at("condition").text(0, kLongestName);
-  return key;
-}
-
-TrialRecord record_of(const Field& field) {
-  TrialRecord record;
-  record.key = key_of(field);
-  for (const Field& robot : field.at("robots").items(1, kMostRobots))
-    record.robots.push_back(robot_of(robot));
-  const auto robots = static_cast<std::int64_t>(record.robots.size());
-  record.outcome = field.at("outcome").choice<sim::TrialOutcome>();
-  record.failure = field.at("failure").text(0, kLongestText);
-  if (!field.at("contact").unknown()) record.contact = contact_of(field.at("contact"), robots);
-  record.contacts = field.at("contacts").small(0, kMostContacts);
-  record.hits_while_standing = field.at("hits_while_standing").small(0, kMostContacts);
-  record.sim_time = field.at("sim_time").number(0.0, kLongestTime);
-  record.dynamic_distance = field.at("dynamic_distance").number_or_unknown(0.0, kLongestWay);
-  record.dynamic_clearance = field.at("dynamic_clearance").number_or_unknown(-kLongestWay, kLongestWay);
-  record.digest = field.at("digest").hexadecimal(1);
-  record.plan_time = histogram_of(field.at("plan_time"));
-  record.control_time = histogram_of(field.at("control_time"));
-  record.wall_time = field.at("wall_time").number(0.0, 1e9);
-  if (field.has("setup")) record.setup = field.at("setup").hexadecimal(0);
-  if (field.has("new_plan_time")) record.new_plan_time = histogram_of(field.at("new_plan_time"));
-  if (field.has("optimiser_time")) record.optimiser_time = histogram_of(field.at("optimiser_time"));
-  if (field.has("wheel_share")) record.wheel_share = field.at("wheel_share").number(0.0, kLongestWay);
-  if (field.has("crossings")) record.crossing = crossing_of(field, robots);
-  if (field.has("cause")) record.cause = cause_of(field.at("cause"), robots);
-  return record;
-}
+  const Field& field_;
+  const Field& line_;
+};
 
 }  // namespace
 
@@ -244,7 +203,10 @@ TrialRecord trial_record_from_json(const std::string& text, const std::string& s
       return true;
     };
     const Json json = Json::parse(text, shallow);
-    return record_of(Field{json, ""});
+    const Field field{json, ""};
+    TrialRecord record;
+    TrialRecord::visit_fields(record, RecordReader{field, field});
+    return record;
   } catch (const FieldRefused& refused) {
     throw refuse(refused.sentence);
   } catch (const nlohmann::json::exception& error) {
