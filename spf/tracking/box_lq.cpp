@@ -16,6 +16,16 @@ constexpr double kRelativeTolerance = 1e-11;
 constexpr double kAbsoluteTolerance = 1e-10;
 constexpr int kFallbackSteps = 40;
 
+/// Makes an input step 0 that is held at its bound.
+void take_out(int input, Matrix3d& curvature, Vector3d& gradient, Matrix3d& by_state, Matrix3d& by_previous) {
+  curvature.row(input).setZero();
+  curvature.col(input).setZero();
+  curvature(input, input) = 1.0;
+  gradient[input] = 0.0;
+  by_state.row(input).setZero();
+  by_previous.row(input).setZero();
+}
+
 }  // namespace
 
 Vector3d bound_violation(const BoxLqProblem& problem, const Vector3d& state) {
@@ -132,15 +142,9 @@ void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence
     Matrix3d by_previous = Matrix3d::Zero();
     if constexpr (kRate) by_previous.diagonal().setConstant(-2.0 * rate);
 
-    for (int i = 0; i < 3; ++i) {
-      if (!held_[index(k)][static_cast<std::size_t>(i)]) continue;
-      curvature.row(i).setZero();
-      curvature.col(i).setZero();
-      curvature(i, i) = 1.0;
-      gradient[i] = 0.0;
-      by_state.row(i).setZero();
-      by_previous.row(i).setZero();
-    }
+    for (int i = 0; i < 3; ++i)
+      if (held_[index(k)][static_cast<std::size_t>(i)])
+        take_out(i, curvature, gradient, by_state, by_previous);
     Cholesky3& factor = factors_[index(k)];
     factor = Cholesky3{curvature};
     feedback.step = -factor.solve(gradient);
