@@ -13,8 +13,10 @@
 namespace spf::sim {
 namespace {
 
-constexpr int kMaxTries = 2000;     // within one group of shapes (docs/protocol.md)
-constexpr int kMaxAttempts = 1000;  // scenes; ours, so that an impossible layout ends with a message
+constexpr double kSidePerRoot = 5.0;      // [m] side of a FIELD over the root of its robots
+constexpr double kRobotsPerPillar = 4.0;  // [1] of a FIELD
+constexpr int kMaxTries = 2000;           // within one group of shapes (docs/protocol.md)
+constexpr int kMaxAttempts = 1000;        // scenes; ours, so that an impossible layout ends with a message
 
 Eigen::Vector2d draw_point(RandomStream& random, double half_width, double half_height) {
   const double x = random.uniform(-half_width, half_width);
@@ -191,7 +193,7 @@ bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& 
   constexpr double kFarGoal = 30.0;      // [m]
   constexpr double kPillarRadius = 0.5;  // [m]
   constexpr double kMargin = 1.0;        // [m] between the square of starts and goals and the border
-  const double half = 0.5 * layout.side_per_root * std::sqrt(static_cast<double>(layout.robots));
+  const double half = 0.5 * kSidePerRoot * std::sqrt(static_cast<double>(layout.robots));
   const double center_gap = kGap + 2.0 * scenario.robot.radius;
   scenario.border = square(Eigen::Vector2d::Zero(), 2.0 * (half + kMargin));
 
@@ -214,7 +216,7 @@ bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& 
   }
   const double end_gap = kGap + kPillarRadius + scenario.robot.radius;
   std::vector<Eigen::Vector2d> pillars;
-  const int count = static_cast<int>(static_cast<double>(layout.robots) / layout.robots_per_pillar);
+  const int count = static_cast<int>(static_cast<double>(layout.robots) / kRobotsPerPillar);
   for (int i = 0; i < count; ++i) {
     const bool placed = draw_group(1, [&] {
       const Eigen::Vector2d center = draw_point(random, half, half);

@@ -45,22 +45,20 @@ namespace spf::sim {
 struct LayoutParameters {
   int robots = 5;
   int squares = 6;
-  int discs = 4;                   ///< moving
-  double half_field = 15.0;        ///< [m] half the side of the border (t2, t2_hard, f7)
-  double circle_radius = 12.5;     ///< [m] of the starts (t2, t2_hard, f7)
-  double squares_within = 7.0;     ///< [m] largest coordinate of a square's centre
-  double square_side_low = 1.0;    ///< [m]
-  double square_side_high = 2.0;   ///< [m]
-  double discs_within = 13.0;      ///< [m] largest coordinate of a disc's centre
-  double disc_speed_low = 0.5;     ///< [m/s]
-  double disc_speed_high = 1.0;    ///< [m/s]
-  double disc_radius_low = 0.4;    ///< [m] drawn only when below disc_radius_high
-  double disc_radius_high = 0.4;   ///< [m]
-  double circle_per_robot = 1.5;   ///< [m] of circumference (swap: 1.5 crowded, 5 wide)
-  double side_per_root = 5.0;      ///< [m] side of the field over the root of the robots (field)
-  double robots_per_pillar = 4.0;  ///< [1] (field)
-  double window = 60.0;            ///< [s] of a recording, for each trial (ped)
-  double window_spacing = 5.0;     ///< [s] from the beginning of a window to that of the next (ped)
+  int discs = 4;                  ///< moving
+  double half_field = 15.0;       ///< [m] half the side of the border (t2, t2_hard, f7)
+  double circle_radius = 12.5;    ///< [m] of the starts (t2, t2_hard, f7)
+  double squares_within = 7.0;    ///< [m] largest coordinate of a square's centre
+  double square_side_low = 1.0;   ///< [m]
+  double square_side_high = 2.0;  ///< [m]
+  double discs_within = 13.0;     ///< [m] largest coordinate of a disc's centre
+  double disc_speed_low = 0.5;    ///< [m/s]
+  double disc_speed_high = 1.0;   ///< [m/s]
+  double disc_radius_low = 0.4;   ///< [m] drawn only when below disc_radius_high
+  double disc_radius_high = 0.4;  ///< [m]
+  double circle_per_robot = 1.5;  ///< [m] of circumference (swap: 1.5 crowded, 5 wide)
+  double window = 60.0;           ///< [s] of a recording, for each trial (ped)
+  double window_spacing = 5.0;    ///< [s] from the beginning of a window to that of the next (ped)
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -81,10 +79,6 @@ struct LayoutParameters {
     visit("disc_radius_high", self.disc_radius_high, "m", Range{0.01, 100.0}, "largest disc");
     visit("circle_per_robot", self.circle_per_robot, "m", Range{0.01, 100.0},
           "circumference for each robot (swap)");
-    visit("side_per_root", self.side_per_root, "m", Range{1.0, 100.0},
-          "side of the field over root of robots (field)");
-    visit("robots_per_pillar", self.robots_per_pillar, "1", Range{0.1, 1e6},
-          "robots for each static disc (field)");
     visit("window", self.window, "s", Range{1.0, 1e5}, "part of the recording that a trial is (ped)");
     visit("window_spacing", self.window_spacing, "s", Range{0.1, 1e5},
           "from the beginning of a trial's window to that of the next (ped)");

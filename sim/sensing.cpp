@@ -7,6 +7,11 @@
 #include "spf/math/angles.hpp"
 
 namespace spf::sim {
+namespace {
+
+constexpr double kSeamDuration = 0.5;  // [s] in which the jump at a seam decays (linearly)
+
+}  // namespace
 
 Sensing::Sensing(const Scenario& scenario)
     : parameters_{scenario.simulation.sensing},
@@ -39,7 +44,7 @@ Eigen::Vector2d Sensing::seam_offset(PoseChannel& channel, double time, const Ei
   if (seams_.empty()) return Eigen::Vector2d::Zero();
   const auto remaining = [&] {
     const double age = time - channel.jump_time;
-    return age < pose_noise_.seam_duration ? 1.0 - age / pose_noise_.seam_duration : 0.0;
+    return age < kSeamDuration ? 1.0 - age / kSeamDuration : 0.0;
   };
   const Segment path{channel.started ? channel.last_position : position, position};
   for (const Segment& seam : seams_) {

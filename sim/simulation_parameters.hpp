@@ -134,7 +134,6 @@ struct PoseNoiseParameters {
   double heading_sigma = 0.0;   ///< [rad] per observation
   double rate = 100.0;          ///< [Hz]
   double seam_sigma = 0.0;      ///< [m] per axis, jump of the observed pose on crossing a seam
-  double seam_duration = 0.5;   ///< [s] in which the jump decays (linearly)
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -144,7 +143,6 @@ struct PoseNoiseParameters {
     visit("rate", self.rate, "Hz", Range{1.0, 200.0}, "rate of pose observations");
     visit("seam_sigma", self.seam_sigma, "m", Range{0.0, 10.0},
           "jump of the observed pose at a seam, per axis");
-    visit("seam_duration", self.seam_duration, "s", Range{0.0, 60.0}, "time in which such a jump decays");
   }
 };
 
@@ -172,7 +170,6 @@ struct TrialParameters {
   double time_limit = 0.0;        ///< [s] 0 = the protocol's: max(120 s, 4 times the obstacle-free time)
   double latest_arrival = 0.0;    ///< [1] times the obstacle-free time; a later one is none; 0 = any will do
   double arrival_distance = 0.1;  ///< [m]
-  double arrival_speed = 0.2;     ///< [m/s]
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -194,8 +191,7 @@ struct TrialParameters {
           "a robot that takes longer than so many times its obstacle-free time counts as over time; 0 = any "
           "time within the trial will do");
     visit("arrival_distance", self.arrival_distance, "m", Range{0.001, 100.0},
-          "nearer to the goal has arrived");
-    visit("arrival_speed", self.arrival_speed, "m/s", Range{0.001, 100.0}, "and slower than this");
+          "nearer to the goal, and slower than 0.2 m/s, has arrived");
   }
 };
 

@@ -8,6 +8,8 @@
 namespace spf::sim {
 namespace {
 
+constexpr double kArrivalSpeed = 0.2;  // [m/s] who is near the goal and slower than this has arrived
+
 std::uint64_t bits_of(double value) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
@@ -31,7 +33,7 @@ void TrialMeter::moved(double time, std::vector<RobotTruth>& robots) {
     robots_[i].travel_time = time;
     const double to_goal = (truth.pose.position_world - tasks_[i].goal_world).norm();
     if (truth.wrecked || to_goal > parameters_.arrival_distance ||
-        truth.velocity_world.norm() >= parameters_.arrival_speed)
+        truth.velocity_world.norm() >= kArrivalSpeed)
       continue;
     truth.arrived = true;
     arrivals_.push_back(static_cast<int>(i));

@@ -86,14 +86,26 @@ TEST(ScenarioFile, AFamilyOfSmallRobotsHasTheirDefaults) {
 TEST(ScenarioFile, MethodSetsAgentParametersAndTheFileOverridesThem) {
   const AgentParameters defaults;
   const Study study = study_from_text(
-      "family: t2\nmethod: spf_empc\nrobot: {radius: 0.25}\nagent: {team: {retry_first: 0.5}}\n",
+      "family: t2\nmethod: spf_empc\nrobot: {radius: 0.25}\nagent: {team: {emergency_time: 0.5}}\n",
       "file.yaml");
   const AgentParameters expected = with_method(defaults, "spf_empc");
   const AgentParameters parameters = agent_parameters(study);
   EXPECT_EQ(typeid(*parameters.make_planner(parameters)), typeid(*expected.make_planner(expected)));
-  EXPECT_EQ(parameters.team.replanning.retry_first, 0.5);
+  EXPECT_EQ(parameters.team.replanning.emergency_time, 0.5);
   EXPECT_EQ(parameters.robot.radius, 0.25);  // one robot for planner, controller and plant
   EXPECT_EQ(make_trial(study, 0).robot.radius, 0.25);
+}
+
+// What once was a parameter and is a constant now: a file that still sets it is told so, not obeyed in
+// silence.
+TEST(ScenarioFile, RefusesKeysOfParametersThatAreConstantsNow) {
+  const std::string found = report(
+      "family: t2\nrobot: {wheel_count: 3}\nagent:\n  team: {keep_candidates: true}\n"
+      "  planner: {optimizer: {memory: 8}}\n  space_time: {sigma_floor: 0.1}\n");
+  EXPECT_THAT(found, HasSubstr("file.yaml:2:9: robot.wheel_count = 3 is not a known key"));
+  EXPECT_THAT(found, HasSubstr("file.yaml:4:10: agent.team.keep_candidates = true is not a known key"));
+  EXPECT_THAT(found, HasSubstr("agent.planner.optimizer"));
+  EXPECT_THAT(found, HasSubstr("file.yaml:6:16: agent.space_time.sigma_floor = 0.1 is not a known key"));
 }
 
 TEST(ScenarioFile, DescribesASceneByHand) {

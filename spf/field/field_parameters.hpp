@@ -13,9 +13,6 @@ struct FieldParameters {
   double threshold_scale =
       1.0;                  ///< [1] times the smallest ellipse that holds the disc now and after stretch_time
   bool directional = true;  ///< false: the speed counts as zero, a round field (ablation "without field")
-  double side_change_window = 4.0;   ///< [s] side changes younger than this widen the threshold
-  double widening_per_change = 0.1;  ///< [1] growth of the threshold per side change after the first
-  double max_widening = 0.5;         ///< [1] largest growth of the threshold by side changes
 
   /// The only list of these fields.
   template <class Self, class Visitor>
@@ -29,12 +26,6 @@ struct FieldParameters {
     visit("threshold_scale", self.threshold_scale, "1", Range{0.5, 5.0},
           "danger threshold, times the smallest ellipse that holds the obstacle now and after stretch_time");
     visit("directional", self.directional, "false makes the field round (ablation without the field)");
-    visit("side_change_window", self.side_change_window, "s", Range{0.0, 60.0},
-          "side changes younger than this widen the threshold (paper: engineering setting)");
-    visit("widening_per_change", self.widening_per_change, "1", Range{0.0, 2.0},
-          "growth of the threshold per side change after the first");
-    visit("max_widening", self.max_widening, "1", Range{0.0, 4.0},
-          "largest growth of the threshold by side changes");
   }
 };
 

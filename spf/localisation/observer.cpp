@@ -9,10 +9,15 @@
 namespace spf {
 namespace {
 
+constexpr double kHeadingVelocityNoise = 0.02;  // [rad/sqrt(s)] white noise of the yaw rate
+constexpr double kHeadingDriftNoise = 0.02;     // [rad/s/sqrt(s)] random walk of the yaw disturbance
+constexpr double kGate = 6.0;  // [1] innovations beyond this many sigma (plus the floor) are outliers
+constexpr double kHeadingGateFloor = 0.1;  // [rad]
+constexpr int kReadmitCount = 5;           // outliers in a row that agree with each other are believed
 constexpr std::size_t kHeading = 2;
 // Deviation of the unknown disturbance at the start [m/s], [rad/s]: a few centimetres a second of slip.
 constexpr double kInitialDisturbanceSigma = 0.05;
-// Outliers that do not even agree with each other are believed after this many times readmit_count: then the
+// Outliers that do not even agree with each other are believed after this many times kReadmitCount: then the
 // declared noise is wrong, and a bad measurement is better than none for ever.
 constexpr int kPatience = 4;
 constexpr double kLargestTurn = 1.0;  // [rad] of a sensor's jump
@@ -22,8 +27,7 @@ constexpr double kLargestTurn = 1.0;  // [rad] of a sensor's jump
 PoseObserver::PoseObserver(const ObserverParameters& parameters) : parameters_{validated(parameters)} {
   const AxisNoise position{parameters_.pose_sigma, parameters_.velocity_noise, parameters_.drift_noise};
   noise_ = {position, position,
-            AxisNoise{parameters_.heading_sigma, parameters_.heading_velocity_noise,
-                      parameters_.heading_drift_noise}};
+            AxisNoise{parameters_.heading_sigma, kHeadingVelocityNoise, kHeadingDriftNoise}};
 }
 
 void PoseObserver::reset() {
@@ -86,8 +90,8 @@ PoseObserver::Triple PoseObserver::innovation(const Triple& measured, const Trip
 bool PoseObserver::within_gate(const Triple& innovation, const Triple& variance) const {
   for (std::size_t i = 0; i < 3; ++i) {
     const double sigma = std::sqrt(variance[i] + noise_[i].measurement * noise_[i].measurement);
-    const double floor = i == kHeading ? parameters_.heading_gate_floor : parameters_.gate_floor;
-    if (!(std::abs(innovation[i]) <= parameters_.gate * sigma + floor)) return false;
+    const double floor = i == kHeading ? kHeadingGateFloor : parameters_.gate_floor;
+    if (!(std::abs(innovation[i]) <= kGate * sigma + floor)) return false;
   }
   return true;
 }
@@ -121,8 +125,7 @@ MeasurementOutcome PoseObserver::reject(const Triple& measured) {
     agreeing_outliers_ = 1;
     outlier_mean_ = measured;
   }
-  if (agreeing_outliers_ < parameters_.readmit_count &&
-      outliers_in_a_row_ < kPatience * parameters_.readmit_count)
+  if (agreeing_outliers_ < kReadmitCount && outliers_in_a_row_ < kPatience * kReadmitCount)
     return MeasurementOutcome::rejected;
 
   agreeing_outliers_ = std::max(agreeing_outliers_, 1);
@@ -156,7 +159,7 @@ MeasurementOutcome PoseObserver::follow_jump(const Triple& innovation) {
   if (within_gate(change, gate_variance_)) {
     for (std::size_t i = 0; i < 3; ++i) jump_[i] += kSmoothing * change[i];
   } else {
-    if (++outliers_in_a_row_ < parameters_.readmit_count) return MeasurementOutcome::rejected;
+    if (++outliers_in_a_row_ < kReadmitCount) return MeasurementOutcome::rejected;
     jump_ = innovation;  // it has jumped again
   }
   outliers_in_a_row_ = 0;
@@ -164,7 +167,7 @@ MeasurementOutcome PoseObserver::follow_jump(const Triple& innovation) {
   bool settled = true;
   for (std::size_t i = 0; i < 3; ++i) {
     axes_[i].correct(innovation[i], {share, 0.0}, std::hypot(noise_[i].measurement, jump_[i]));
-    const double floor = i == kHeading ? parameters_.heading_gate_floor : parameters_.gate_floor;
+    const double floor = i == kHeading ? kHeadingGateFloor : parameters_.gate_floor;
     settled = settled && std::abs(jump_[i]) <= std::max(floor, noise_[i].measurement);
   }
   axes_[kHeading].set_value(wrap_angle(axes_[kHeading].value()));

@@ -22,21 +22,16 @@ struct EnumNames<ObserverKind> {
 
 struct ObserverParameters {
   ObserverKind kind = ObserverKind::kalman;
-  double bandwidth = 0.5;                ///< [rad/s] eso: w of x and y, l1 = 2 w = 1, l2 = w^2 = 0.25 (paper)
-  double heading_bandwidth = 0.5;        ///< [rad/s] eso: w of the heading (paper: the same)
-  double pose_sigma = 0.0;               ///< [m] of a measurement, per axis; 0 = exact
-  double heading_sigma = 0.0;            ///< [rad] of a measurement; 0 = exact
-  double velocity_noise = 0.05;          ///< [m/sqrt(s)] slip, white in the velocity
-  double drift_noise = 0.02;             ///< [m/s/sqrt(s)] random walk of the disturbance velocity
-  double heading_velocity_noise = 0.02;  ///< [rad/sqrt(s)]
-  double heading_drift_noise = 0.02;     ///< [rad/s/sqrt(s)]
-  double max_disturbance = 0.5;          ///< [m/s] and [rad/s], bound of the estimated disturbance
-  double gate = 6.0;                ///< [1] innovations beyond this many sigma (plus the floor) are outliers
-  double gate_floor = 0.02;         ///< [m]
-  double heading_gate_floor = 0.1;  ///< [rad]
-  int readmit_count = 5;            ///< [1] outliers in a row that agree with each other are believed
-  double settling_time = 1.0;       ///< [s] in which they are, when they are a jump of at most largest_jump
-  double largest_jump = 1.0;        ///< [m] a larger one is believed at once: the robot was carried away
+  double bandwidth = 0.5;          ///< [rad/s] eso: w of x and y, l1 = 2 w = 1, l2 = w^2 = 0.25 (paper)
+  double heading_bandwidth = 0.5;  ///< [rad/s] eso: w of the heading (paper: the same)
+  double pose_sigma = 0.0;         ///< [m] of a measurement, per axis; 0 = exact
+  double heading_sigma = 0.0;      ///< [rad] of a measurement; 0 = exact
+  double velocity_noise = 0.05;    ///< [m/sqrt(s)] slip, white in the velocity
+  double drift_noise = 0.02;       ///< [m/s/sqrt(s)] random walk of the disturbance velocity
+  double max_disturbance = 0.5;    ///< [m/s] and [rad/s], bound of the estimated disturbance
+  double gate_floor = 0.02;        ///< [m]
+  double settling_time = 1.0;      ///< [s] in which they are, when they are a jump of at most largest_jump
+  double largest_jump = 1.0;       ///< [m] a larger one is believed at once: the robot was carried away
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -54,24 +49,18 @@ struct ObserverParameters {
           "white noise of the velocity (slip); our choice");
     visit("drift_noise", self.drift_noise, ScaledUnit{"m/s/sqrt(s)", Scale::speed}, Range{0.0, 10.0},
           "random walk of the disturbance velocity; our choice");
-    visit("heading_velocity_noise", self.heading_velocity_noise, "rad/sqrt(s)", Range{0.0, 10.0},
-          "white noise of the yaw rate; our choice");
-    visit("heading_drift_noise", self.heading_drift_noise, "rad/s/sqrt(s)", Range{0.0, 10.0},
-          "random walk of the yaw disturbance; our choice");
     visit("max_disturbance", self.max_disturbance, kSpeedByRobot, Range{0.0, 100.0},
           "bound of the estimated disturbance velocity (and yaw rate in rad/s)");
-    visit("gate", self.gate, "1", Range{1.0, 100.0},
-          "standard deviations beyond which a measurement is an outlier");
-    visit("gate_floor", self.gate_floor, kMetresBySize, Range{0.0, 100.0}, "added to the gate of x and y");
-    visit("heading_gate_floor", self.heading_gate_floor, "rad", Range{0.0, 100.0},
-          "added to the gate of the heading");
-    visit("readmit_count", self.readmit_count, "1", Range{1, 1000},
-          "consistent outliers in a row that are believed");
     visit("settling_time", self.settling_time, "s", Range{0.0, 60.0},
           "time constant with which the estimate follows a measured pose that has jumped: a sensor jumps (at "
           "the seam of two cameras, say), a robot does not; 0 = at once");
-    visit("largest_jump", self.largest_jump, kMetresBySize, Range{0.0, 1000.0},
-          "a larger jump is followed at once: the robot was carried away");
+  }
+
+  /// No settings, but they follow the robot.
+  template <class Self, class Visitor>
+  static void visit_constants(Self& self, Visitor&& visit) {
+    visit(self.gate_floor, Scale::size, Range{0.0, 100.0});
+    visit(self.largest_jump, Scale::size, Range{0.0, 1000.0});
   }
 };
 

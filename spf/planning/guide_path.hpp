@@ -20,7 +20,6 @@ struct GuidePathParameters {
   double resolution = 0.2;  ///< [m] of the flood's nodes, at most 1.4 clearance is used; passages narrower
                             ///< than 2 clearance + this may be missed
   double window_margin = 10.0;  ///< [m] the flood first stays this close to the box around robot and goal
-  double blocked_factor = 3.0;  ///< [1] about the cost of a metre on blocked ground, where no way leads
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -28,16 +27,19 @@ struct GuidePathParameters {
           "distance to static surfaces that the global way keeps");
     visit("resolution", self.resolution, kMetresBySize, Range{0.005, 5.0},
           "spacing of the nodes of the global way's search");
-    visit("window_margin", self.window_margin, kMetresByWay, Range{0.0, 1000.0},
-          "room around robot and goal that is searched first; all of the map follows when it holds no way");
-    visit("blocked_factor", self.blocked_factor, "1", Range{1.0, 100.0}, "cost of a metre on blocked ground");
+  }
+
+  /// No settings, but they follow the robot.
+  template <class Self, class Visitor>
+  static void visit_constants(Self& self, Visitor&& visit) {
+    visit(self.window_margin, Scale::way, Range{0.0, 1000.0});
   }
 };
 
 enum class GuideOutcome {
   reachable,     ///< a way leads from the robot to the goal
   goal_moved,    ///< likewise, but to goal_used(), the nearest free place to a goal on blocked ground
-  unreachable,   ///< no way; the cost-to-go then counts blocked ground at blocked_factor and still leads to
+  unreachable,   ///< no way; the cost-to-go then counts blocked ground several times over and still leads to
                  ///< the goal
   no_free_goal,  ///< the map has no free place near the goal at all (or numbers were not finite): no field
 };

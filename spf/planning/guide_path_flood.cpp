@@ -9,6 +9,8 @@
 namespace spf {
 namespace {
 
+constexpr double kBlockedFactor = 3.0;  // [1] about the cost of a metre on blocked ground, where no way leads
+
 enum NodeState : std::uint8_t {
   blocked,  // nearer to a surface than the clearance
   unseen,   // free, not reached yet
@@ -305,7 +307,7 @@ void GuidePath::extend_over_blocked_ground() {
     if (portal == index) continue;
     Node node = flood_.nodes[static_cast<std::size_t>(portal)];
     const double depth = std::max((place(index) - place(portal)).norm() - free_depth, 0.0);
-    node.root_cost += static_cast<float>((parameters_.blocked_factor - 1.0) * depth);
+    node.root_cost += static_cast<float>((kBlockedFactor - 1.0) * depth);
     node.parent = kBlocked - 1 - portal;
     flood_.nodes[static_cast<std::size_t>(index)] = node;
   }

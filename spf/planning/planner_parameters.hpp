@@ -54,45 +54,35 @@ struct CostWeights {
   }
 };
 
+/// Accepted excess of a plan over max_speed and max_acceleration [1].
+inline constexpr double kSpeedTolerance = 0.05;
+inline constexpr double kAccelerationTolerance = 0.1;
+
 struct PlannerParameters {
   DynamicModel dynamic_model = DynamicModel::probability_field;
-  double horizon = 7.5;             ///< [m] way to the local target
-  double piece_length = 1.5;        ///< [m] way per piece
-  int max_pieces = 8;               ///< [1]
-  int nodes_per_piece = 5;          ///< [1] intervals between nodes in a piece
-  double checked_fraction = 0.667;  ///< [1] part of the plan (from its start) that heeds what moves
-  double static_margin = 0.02;      ///< [m] beyond the robot's radius, for search and checks
-  double hard_clearance = 0.1;      ///< [m] wanted beyond that from static obstacles
-  double soft_clearance = 0.3;      ///< [m] comfortable beyond that
-  double peer_margin = 0.05;        ///< [m] beyond contact with peers, for checks
-  double peer_clearance = 0.25;     ///< [m] wanted beyond contact with peers
-  double safety_distance = 0.3;     ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
+  double horizon = 7.5;          ///< [m] way to the local target
+  double piece_length = 1.5;     ///< [m] way per piece (ES2)
+  int max_pieces = 8;            ///< [1] no setting
+  int nodes_per_piece = 5;       ///< [1] intervals between nodes in a piece (ES2); no setting
+  double static_margin = 0.02;   ///< [m] beyond the robot's radius, for search and checks
+  double hard_clearance = 0.1;   ///< [m] wanted beyond that from static obstacles
+  double soft_clearance = 0.3;   ///< [m] comfortable beyond that
+  double peer_margin = 0.05;     ///< [m] beyond contact with peers, for checks
+  double peer_clearance = 0.25;  ///< [m] wanted beyond contact with peers
+  double safety_distance = 0.3;  ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
   double least_sideways =
       0.7;  ///< [1] sine of the least angle between escape direction and way through the field
-  int max_side_combinations = 8;        ///< [1] ways past the obstacles in conflict that are optimised
-  double side_bonus = 0.15;             ///< [1] discount of the side taken last time
-  int unsafe_retries = 2;               ///< [1] further runs of a candidate after a failed check
-  int max_rebounds = 20;                ///< [1] runs cut short by a newly met static obstacle
-  int run_evaluations = 60;             ///< [1] deadline of one optimiser run
-  int max_evaluations = 400;            ///< [1] deadline of one plan
-  double speed_tolerance = 0.05;        ///< [1] accepted excess over max_speed
-  double acceleration_tolerance = 0.1;  ///< [1] accepted excess over max_acceleration
-  double slow_factor = 1.8;             ///< [1] stretch of time of the slow seed
-  double goal_tolerance = 0.01;         ///< [m] closer and at rest: standing is the plan
+  int run_evaluations = 60;      ///< [1] deadline of one optimiser run; no setting
+  int max_evaluations = 400;     ///< [1] deadline of one plan
+  double goal_tolerance = 0.01;  ///< [m] closer and at rest: standing is the plan
   CostWeights weights;
-  LbfgsParameters optimizer;
+  LbfgsParameters optimizer;  ///< no settings
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     constexpr Range kLength{0.0, 100.0};
     visit("dynamic_model", self.dynamic_model, "what is assumed about moving obstacles");
     visit("horizon", self.horizon, kMetresByWay, Range{0.05, 100.0}, "way to the local target (ES2: 7.5)");
-    visit("piece_length", self.piece_length, kMetresByWay, Range{0.01, 100.0}, "way per piece (ES2: 1.5)");
-    visit("max_pieces", self.max_pieces, "1", Range{2, 12}, "most pieces of a plan");
-    visit("nodes_per_piece", self.nodes_per_piece, "1", Range{2, 20},
-          "intervals between nodes in a piece, K (ES2: 5)");
-    visit("checked_fraction", self.checked_fraction, "1", Range{0.1, 1.0},
-          "part of the plan that heeds what moves; the rest is planned again before it is driven (ES2: 2/3)");
     visit("static_margin", self.static_margin, kMetresBySize, kLength,
           "beyond the radius, for search and checks of static obstacles");
     visit("hard_clearance", self.hard_clearance, kMetresBySize, Range{0.001, 100.0},
@@ -106,25 +96,16 @@ struct PlannerParameters {
     visit("least_sideways", self.least_sideways, "1", Range{0.0, 1.0},
           "sine of the least angle between an escape direction and the way through the field; 0 = eq. 11 as "
           "printed");
-    visit("max_side_combinations", self.max_side_combinations, "1", Range{1, 64},
-          "ways past the obstacles that are optimised");
-    visit("side_bonus", self.side_bonus, "1", Range{0.0, 0.9}, "discount of the side taken last time");
-    visit("unsafe_retries", self.unsafe_retries, "1", Range{0, 20},
-          "further runs of a candidate after a failed check (ES2: 2)");
-    visit("max_rebounds", self.max_rebounds, "1", Range{0, 100},
-          "runs cut short by a newly met static obstacle (ES2: 20)");
-    visit("run_evaluations", self.run_evaluations, "1", Range{5, 100000},
-          "cost evaluations of one optimiser run");
     visit("max_evaluations", self.max_evaluations, "1", Range{5, 1000000},
           "cost evaluations of one plan: its deadline");
-    visit("speed_tolerance", self.speed_tolerance, "1", Range{0.0, 1.0}, "accepted excess over max_speed");
-    visit("acceleration_tolerance", self.acceleration_tolerance, "1", Range{0.0, 1.0},
-          "accepted excess over max_acceleration");
-    visit("slow_factor", self.slow_factor, "1", Range{1.0, 10.0}, "stretch of time of the slow seed");
-    visit("goal_tolerance", self.goal_tolerance, kMetresBySize, kLength,
-          "closer and at rest, standing is the plan");
     visit.group("weights", self.weights);
-    visit.group("optimizer", self.optimizer);
+  }
+
+  /// No settings, but they follow the robot.
+  template <class Self, class Visitor>
+  static void visit_constants(Self& self, Visitor&& visit) {
+    visit(self.piece_length, Scale::way, Range{0.01, 100.0});
+    visit(self.goal_tolerance, Scale::size, Range{0.0, 100.0});
   }
 };
 

@@ -27,10 +27,28 @@ class RobotScale {
   void operator()(const char* /*name*/, Rest&&... /*rest*/) const {}
   template <class Nested>
   void group(const char* /*name*/, Nested& nested) const {
-    Nested::visit_fields(nested, *this);
+    apply(nested, 0);
+  }
+  // ---- and of visit_constants, a list of what follows the robot but is no setting: visit(value, scale,
+  // range).
+  void operator()(double& value, Scale scale, Range range) const {
+    operator()("", value, ScaledUnit{"", scale}, range, "");
   }
 
  private:
+  template <class Parameters>
+  friend Parameters scaled(Parameters parameters, const RobotScale& scale);
+
+  template <class Parameters>
+  auto apply(Parameters& parameters, int) const -> decltype(Parameters::visit_constants(parameters, *this)) {
+    Parameters::visit_fields(parameters, *this);
+    Parameters::visit_constants(parameters, *this);
+  }
+  template <class Parameters>
+  void apply(Parameters& parameters, long) const {
+    Parameters::visit_fields(parameters, *this);
+  }
+
   double size_;   // [1]
   double way_;    // [1]
   double speed_;  // [1]
@@ -40,7 +58,7 @@ class RobotScale {
 /// Parameters that suit one robot, made to suit another.
 template <class Parameters>
 [[nodiscard]] Parameters scaled(Parameters parameters, const RobotScale& scale) {
-  Parameters::visit_fields(parameters, scale);
+  scale.apply(parameters, 0);
   return parameters;
 }
 

@@ -27,11 +27,27 @@ struct Numbers {
   }
 };
 
+struct Constants {
+  double tolerance = 0.1;  // [m]
+  int count = 3;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("count", self.count, "1", Range{0, 100}, "count");
+  }
+  template <class Self, class Visitor>
+  static void visit_constants(Self& self, Visitor&& visit) {
+    visit(self.tolerance, Scale::size, Range{0.0, 0.3});
+  }
+};
+
 struct Outer {
   Numbers inner;
+  Constants constants;
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit.group("inner", self.inner);
+    visit.group("constants", self.constants);
   }
 };
 
@@ -61,6 +77,13 @@ TEST(RobotScale, HalvesLengthsAndSpeedsButNoTimesOfAModelAtHalfScale) {
   EXPECT_DOUBLE_EQ(outer.inner.diffusion, 0.1);
   EXPECT_EQ(outer.inner.period, 0.1);
   EXPECT_EQ(outer.inner.count, 3);
+}
+
+TEST(RobotScale, ScalesWhatIsNoSettingToo) {
+  EXPECT_DOUBLE_EQ(scaled(Outer{}, RobotScale{robot_of(0.15, 0.5, 0.5)}).constants.tolerance, 0.05);
+  EXPECT_DOUBLE_EQ(scaled(Constants{}, RobotScale{robot_of(0.6, 2.0, 2.0)}).tolerance, 0.2);
+  EXPECT_EQ(scaled(Constants{}, RobotScale{robot_of(3.0, 1.0, 1.0)}).tolerance, 0.3);
+  EXPECT_TRUE(problems(Constants{}).empty());
 }
 
 TEST(RobotScale, GivesARobotThatStopsSlowlyMoreTimeAndWay) {

@@ -43,7 +43,7 @@ struct AgentParameters {
   TeamParameters team;
   FieldParameters field;
   PlannerParameters planner;
-  GuidePathParameters guide{0.15, 0.2, 10.0, 3.0};  ///< its clearance counts beyond the robot's radius here
+  GuidePathParameters guide{0.15, 0.2, 10.0};  ///< its clearance counts beyond the robot's radius here
   SpaceTimeParameters space_time;
   OrcaParameters orca;
   TrackerParameters tracker;
@@ -65,7 +65,6 @@ struct AgentParameters {
     visit.group("tracker", self.tracker);
     visit.group("obstacles", self.obstacles);
     visit.group("peers", self.peers);
-    visit.group("occupancy", self.occupancy);
   }
 };
 

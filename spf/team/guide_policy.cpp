@@ -17,8 +17,6 @@ GuidePathParameters for_robot(const AgentParameters& parameters) {
 
 GuidePolicy::GuidePolicy(const AgentParameters& parameters, bool approaches_cut_off_goal, double time)
     : approaches_cut_off_goal_{approaches_cut_off_goal},
-      period_{parameters.team.guide_period},
-      idle_period_{parameters.team.guide_idle_period},
       goal_tolerance_{parameters.team.goal_tolerance},
       path_{for_robot(parameters)},
       next_time_{time} {}
@@ -28,7 +26,7 @@ void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vec
   const bool same_goal = path_.ready() && goal_ == goal_world;
   if (same_goal && !is_due(next_time_, time)) return;
   // What was newly sensed off the way makes no other way shorter: only a way that is blocked cannot wait.
-  const bool can_wait = same_goal && !is_due(update_time_ + idle_period_, time);
+  const bool can_wait = same_goal && !is_due(update_time_ + kIdlePeriod, time);
   if (can_wait && (cut_off_ || way_clear(map, here))) return;
   if (same_goal && !cut_off_ && !path_.outdated(map, goal_world, here)) return;
   path_.update(map, goal_world, here);
@@ -38,7 +36,7 @@ void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vec
   if (cut_off_) path_.update(map, last_free_position(map, here), here);
   goal_ = goal_world;
   update_time_ = time;
-  next_time_ = time + period_;
+  next_time_ = time + kPeriod;
 }
 
 /// The last position on the guide's way that keeps its clearance all the way there.

@@ -21,6 +21,11 @@ class GuidePolicy {
   void refresh(double time, const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                const Eigen::Vector2d& here);
 
+  /// [s] The guide follows a changing map at most this often ...
+  static constexpr double kPeriod = 0.5;
+  /// [s] ... and, while its way stays clear, at most this often.
+  static constexpr double kIdlePeriod = 2.0;
+
   [[nodiscard]] const GuidePath& path() const { return path_; }
   /// No way leads to the goal, and the guide to the nearest place that one leads to.
   [[nodiscard]] bool cut_off() const { return cut_off_; }
@@ -32,8 +37,6 @@ class GuidePolicy {
   [[nodiscard]] Eigen::Vector2d last_free_position(const OccupancyMap& map, const Eigen::Vector2d& here);
 
   bool approaches_cut_off_goal_;
-  double period_;          // [s]
-  double idle_period_;     // [s]
   double goal_tolerance_;  // [m]
   GuidePath path_;
   std::vector<Eigen::Vector2d> way_;     // [m] kept for its memory

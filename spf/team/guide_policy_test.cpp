@@ -25,7 +25,6 @@ TEST(GuidePolicy, LeadsToTheGoalAndFollowsANewOneAtOnce) {
 }
 
 TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLater) {
-  const TeamParameters team;
   for (const bool blocks : {true, false}) {
     GuidePolicy guide{AgentParameters{}, true, 0.0};
     OccupancyMap map = empty_map();
@@ -36,7 +35,7 @@ TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLate
       map.add_box({-1.0, 6.0}, {1.0, 8.0});
     const Eigen::Vector2d behind{0.0, blocks ? 0.0 : 7.0};
     const double before = guide.path().cost_to_go(behind);
-    const double period = blocks ? team.guide_period : team.guide_idle_period;
+    const double period = blocks ? GuidePolicy::kPeriod : GuidePolicy::kIdlePeriod;
     guide.refresh(period - 0.05, map, kGoal, kHere);
     EXPECT_EQ(guide.path().cost_to_go(behind), before) << blocks;
     guide.refresh(period, map, kGoal, kHere);

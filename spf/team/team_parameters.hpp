@@ -14,8 +14,6 @@ struct TeamParameters {
   double stale_time = 0.3;         ///< [s] without pose or observation until the robot brakes
   double goal_tolerance = 0.05;    ///< [m] within which the robot counts itself arrived
   double reanchor_distance = 0.3;  ///< [m] from the plan beyond which the plan starts anew at the robot
-  double guide_period = 0.5;       ///< [s] the guide path follows a changing map at most this often
-  double guide_idle_period = 2.0;  ///< [s] and, while its way stays clear, at most this often
   int priority = 0;  ///< [1] the smaller goes first; among equals the robot with the smaller number
   ReplanningParameters replanning{};  ///< of the paper's method; its keys stand among these
 
@@ -32,10 +30,6 @@ struct TeamParameters {
           "distance within which the robot counts itself arrived");
     visit("reanchor_distance", self.reanchor_distance, kMetresBySize, Range{0.02, 10.0},
           "distance from the plan beyond which it starts anew at the robot");
-    visit("guide_period", self.guide_period, "s", Range{0.0, 60.0},
-          "the guide path follows a changing map at most this often");
-    visit("guide_idle_period", self.guide_idle_period, "s", Range{0.0, 60.0},
-          "and, while its way stays clear, at most this often");
     visit("priority", self.priority, "1", Range{0, 1000000},
           "the smaller goes first; among equals the robot with the smaller number");
     ReplanningParameters::visit_fields(self.replanning, visit);

@@ -48,7 +48,6 @@ const MpcResult& ModelPredictiveController::solve(const MpcProblem& problem) {
     return result_;
   }
   set_up(problem);
-  if (!parameters_.warm_start) forget();
 
   // 1. About the reference. The heading of z_0 is the measured one, so that the first command has no such
   // error.

@@ -26,15 +26,15 @@ struct MpcParameters {
   double effort_weight = 0.5;     ///< [s^2/m^2] lambda_u, on wheel speeds minus the reference's
   double rate_weight =
       0.1;  ///< [s^2/m^2] on the change of wheel speeds from step to step; damps chatter under pose noise
+  // No settings; tests vary them.
   double slack_weight = 1e5;  ///< [1/m^2] on violations of the state bounds
-  double x_lower = -1e6;      ///< [m] soft bounds of the robot's centre
+  double x_lower = -1e6;      ///< [m] soft bounds of the robot's centre (z_lb, z_ub of eq. 19)
   double x_upper = 1e6;
   double y_lower = -1e6;
   double y_upper = 1e6;
   int iterations = 2;          ///< [1] Gauss-Newton iterations at most
   double tolerance = 1e-6;     ///< [m/s] stop when an iteration moves no wheel speed by more
   int active_set_steps = 100;  ///< [1] per iteration at most
-  bool warm_start = true;      ///< begin with the bounds active at the last tick
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -48,18 +48,6 @@ struct MpcParameters {
           "lambda_u of eq. 19, on wheel speeds minus the reference's; our choice");
     visit("rate_weight", self.rate_weight, "s^2/m^2", Range{0.0, 1e6},
           "weight of the change of wheel speeds between steps; our addition");
-    visit("slack_weight", self.slack_weight, "1/m^2", Range{0.0, 1e8},
-          "weight of violations of the soft state bounds; our choice");
-    visit("x_lower", self.x_lower, "m", Range{-1e6, 1e6}, "soft lower bound of x (z_lb of eq. 19)");
-    visit("x_upper", self.x_upper, "m", Range{-1e6, 1e6}, "soft upper bound of x (z_ub of eq. 19)");
-    visit("y_lower", self.y_lower, "m", Range{-1e6, 1e6}, "soft lower bound of y (z_lb of eq. 19)");
-    visit("y_upper", self.y_upper, "m", Range{-1e6, 1e6}, "soft upper bound of y (z_ub of eq. 19)");
-    visit("iterations", self.iterations, "1", Range{1, 50}, "Gauss-Newton iterations at most");
-    visit("tolerance", self.tolerance, "m/s", Range{0.0, 1.0},
-          "iterations stop when no wheel speed moves by more");
-    visit("active_set_steps", self.active_set_steps, "1", Range{1, 1000},
-          "active-set steps per iteration at most");
-    visit("warm_start", self.warm_start, "begin with the bounds that were active at the last tick");
   }
 };
 

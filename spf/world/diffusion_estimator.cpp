@@ -6,8 +6,10 @@
 namespace spf {
 namespace {
 
-constexpr double kShortLag = 0.3;  // [s] of the second differences
-constexpr double kLongLag = 1.0;   // [s]
+constexpr double kPriorDuration = 4.0;  // [s] of data that the prior is worth at first
+constexpr double kMemory = 20.0;        // [s] time constant of forgetting
+constexpr double kShortLag = 0.3;       // [s] of the second differences
+constexpr double kLongLag = 1.0;        // [s]
 
 // Squares of two axes against their expectation, so 1 on average: 3.5 and 7 sigma.
 constexpr double kClip = 6.0;
@@ -46,7 +48,7 @@ void DiffusionEstimator::break_off() {
 }
 
 void DiffusionEstimator::forget(double dt) {
-  const double kept = std::exp(-dt / parameters_.memory);
+  const double kept = std::exp(-dt / kMemory);
   for (double* sum :
        {&increment_weight_, &velocity_square_, &velocity_lagged_, &position_weight_, &position_square_}) {
     *sum *= kept;
@@ -150,7 +152,7 @@ void DiffusionEstimator::learn_from_difference(const Sighting& now, double lag) 
 // Prior and data together. Increments tell both diffusions apart, so there the prior soon retires; for the
 // least squares it stays, since noisy positions alone leave the split between the two open.
 void DiffusionEstimator::solve() {
-  double prior = parameters_.prior_duration;
+  double prior = kPriorDuration;
   double velocity_factor = 1.0;
   double position_factor = 1.0;
   if (increment_weight_ > 0.0) {

@@ -16,8 +16,6 @@ struct DiffusionParameters {
       0.1;  ///< [(m/s)^2/s] 1e-2 (m/s)^2 every 0.1 s: noise level 1 Sigma, kept velocity
   double prior_position_diffusion =
       2e-3;                      ///< [m^2/s] 1e-2 * 0.1^2 + 1e-4 m^2 every 0.1 s: 1 Sigma, fresh velocity
-  double prior_duration = 4.0;   ///< [s] of data that the prior is worth at first
-  double memory = 20.0;          ///< [s] time constant of forgetting
   double lowest_factor = 0.02;   ///< [1] bounds of what is learnt, in priors
   double highest_factor = 20.0;  ///< [1]
 
@@ -29,10 +27,6 @@ struct DiffusionParameters {
     visit("prior_position_diffusion", self.prior_position_diffusion,
           ScaledUnit{"m^2/s", Scale::position_diffusion}, Range{1e-9, 10.0},
           "growth of an obstacle's position variance before anything is learnt (1 Sigma, white)");
-    visit("prior_duration", self.prior_duration, "s", Range{0.1, 1000.0},
-          "seconds of data that the prior is worth");
-    visit("memory", self.memory, "s", Range{0.5, 10000.0},
-          "time constant with which old motion is forgotten");
     visit("lowest_factor", self.lowest_factor, "1", Range{1e-6, 1.0},
           "lower bound of a learnt diffusion, in priors");
     visit("highest_factor", self.highest_factor, "1", Range{1.0, 1e6},

@@ -8,8 +8,9 @@
 namespace spf {
 namespace {
 
-constexpr double kDriftKept = 0.7;  // [1] from one innovation to the next: a drift shows within three
-constexpr double kOneEvent = 2.0;   // [s] surprises closer than this are no single event
+constexpr double kDriftLimit = 3.0;  // [1] sigmas; a larger drift means a new motion (a bounce)
+constexpr double kDriftKept = 0.7;   // [1] from one innovation to the next: a drift shows within three
+constexpr double kOneEvent = 2.0;    // [s] surprises closer than this are no single event
 
 bool well_formed(const Detection& detection) {
   const bool numbers = believable(detection.position_world) && believable(detection.radius) &&
@@ -131,7 +132,7 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   const double least = parameters_.least_sigma * parameters_.least_sigma;
   const double position_noise = std::max(detection.position_sigma * detection.position_sigma, least);
   const double velocity_noise = std::max(memory.diffusion.velocity_noise(), least);
-  const double limit = 2.0 * parameters_.surprise * parameters_.surprise;  // two axes
+  const double limit = 2.0 * kDriftLimit * kDriftLimit;  // two axes
   Eigen::Vector2d innovation = detection.position_world - track.state.position_world;
   memory.drift = kDriftKept * memory.drift + innovation / std::sqrt(track.position_variance + position_noise);
   bool surprised = (1.0 - kDriftKept * kDriftKept) * memory.drift.squaredNorm() > limit;
@@ -165,10 +166,8 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   } else {
     memory.diffusion.see(time, detection.position_world, detection.position_sigma);
   }
-  if (parameters_.learn_diffusion) {
-    track.position_diffusion = memory.diffusion.position_diffusion();
-    track.velocity_diffusion = memory.diffusion.velocity_diffusion();
-  }
+  track.position_diffusion = memory.diffusion.position_diffusion();
+  track.velocity_diffusion = memory.diffusion.velocity_diffusion();
 }
 
 void ObstacleTracker::drop_unseen(double time) {

@@ -18,21 +18,19 @@ struct ObstacleTrackerParameters {
   double timeout = 2.0;        ///< [s] a track unseen for longer is dropped
   double initial_speed = 1.0;  ///< [m/s] standard deviation per axis of the velocity of what was seen once
   double least_sigma = 1e-4;   ///< [m] positions are never taken as more exact
-  double surprise = 3.0;  ///< [1] innovations that drift beyond so many sigma mean a new motion (a bounce)
-  bool learn_diffusion = true;  ///< false: the priors of `diffusion` are used as they are
   DiffusionParameters diffusion;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("timeout", self.timeout, "s", Range{0.05, 60.0}, "a track that is unseen for longer is dropped");
-    visit("initial_speed", self.initial_speed, kSpeedByRobot, Range{0.01, 50.0},
-          "spread of the velocity of a new track");
-    visit("least_sigma", self.least_sigma, kMetresBySize, Range{1e-6, 1.0},
-          "positions are never taken as more exact than this");
-    visit("surprise", self.surprise, "1", Range{2.0, 20.0},
-          "drift of the innovations in sigmas that starts the velocity afresh");
-    visit("learn_diffusion", self.learn_diffusion, "learn how restless each obstacle is");
     visit.group("diffusion", self.diffusion);
+  }
+
+  /// No settings, but they follow the robot.
+  template <class Self, class Visitor>
+  static void visit_constants(Self& self, Visitor&& visit) {
+    visit(self.initial_speed, Scale::speed, Range{0.01, 50.0});
+    visit(self.least_sigma, Scale::size, Range{1e-6, 1.0});
   }
 };
 

@@ -251,7 +251,7 @@ TEST(ObstacleTracker, CountsMalformedDetections) {
   EXPECT_TRUE(tracker.tracks().empty());
   EXPECT_EQ(tracker.stats().malformed, 4u);
   ObstacleTrackerParameters parameters;
-  parameters.diffusion.memory = nan;
+  parameters.diffusion.highest_factor = nan;
   EXPECT_THROW(ObstacleTracker{parameters}, std::invalid_argument);
 }
 

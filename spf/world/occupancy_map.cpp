@@ -53,7 +53,7 @@ struct OccupancyMap::Patch {
 };
 
 OccupancyMap::OccupancyMap(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters)
-    : frame_{frame}, max_distance_{max_distance}, parameters_{validated(parameters)} {
+    : frame_{frame}, max_distance_{max_distance}, parameters_{parameters} {
   check_frame(frame);
   if (!(std::isfinite(max_distance) && max_distance > 0.0)) {
     throw std::invalid_argument("occupancy map: max_distance must be positive and finite");

@@ -75,10 +75,6 @@ TEST(GridFrame, CoversWithoutAColumnTooMany) {
 TEST(OccupancyMap, RefusesUnusableMeasures) {
   EXPECT_THROW((OccupancyMap{GridFrame{}, 2.0}), std::invalid_argument);
   EXPECT_THROW((OccupancyMap{GridFrame::covering({0, 0}, {1, 1}, 0.1), 0.0}), std::invalid_argument);
-  OccupancyParameters parameters;
-  parameters.hit_probability = std::nan("");
-  EXPECT_THROW((OccupancyMap{GridFrame::covering({0, 0}, {1, 1}, 0.1), 1.0, parameters}),
-               std::invalid_argument);
   OccupancyMap map = map_of(1.0);
   EXPECT_THROW(map.add_box({0.0, 0.0}, {0.0, 1.0}), std::invalid_argument);
   EXPECT_THROW(map.add_disc({std::nan(""), 0.0}, 1.0), std::invalid_argument);

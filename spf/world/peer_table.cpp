@@ -6,6 +6,13 @@
 #include "spf/math/believable.hpp"
 
 namespace spf {
+namespace {
+
+constexpr double kOldestMessage = 10.0;  // [s] messages sent longer ago are malformed
+constexpr double kLargestRadius = 10.0;  // [m] so are those of larger robots
+
+}  // namespace
+
 PeerTable::PeerTable(int own_id, const PeerTableParameters& parameters)
     : own_id_{own_id}, parameters_{validated(parameters)} {}
 
@@ -49,12 +56,12 @@ MessageVerdict PeerTable::judge(const HeardMessage& heard, double now) const {
 bool PeerTable::well_formed(const TrajectoryMessage& message, double now) const {
   const bool numbers = std::isfinite(now) && std::isfinite(message.sent_time) &&
                        std::isfinite(message.expiry_time) && message.radius > 0.0 &&
-                       message.radius <= parameters_.largest_radius && message.position_sigma >= 0.0 &&
+                       message.radius <= kLargestRadius && message.position_sigma >= 0.0 &&
                        believable(message.position_sigma);
   if (!numbers) return false;
   const double latest = now + parameters_.clock_tolerance;
   return message.sent_time <= latest && message.trajectory.start_time() <= latest &&
-         message.sent_time >= now - parameters_.oldest_message && message.expiry_time >= message.sent_time;
+         message.sent_time >= now - kOldestMessage && message.expiry_time >= message.sent_time;
 }
 
 /// Whether one more sender fits, if need be for the one that expired first.

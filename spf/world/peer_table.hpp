@@ -24,24 +24,22 @@ struct PeerTableParameters {
   double largest_growth = 1.0;  ///< [m] the disc grows up to here
   double forget_time = 10.0;    ///< [s] after expiry the peer is forgotten: from then on only sensing sees it
   double clock_tolerance = 1.0;  ///< [s] messages from farther in the future are malformed
-  double oldest_message = 10.0;  ///< [s] likewise messages sent longer ago than this
-  double largest_radius = 10.0;  ///< [m] likewise larger robots
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("silence", self.silence, "s", Range{0.05, 60.0}, "without a message for this long a peer expires");
     visit("growth_rate", self.growth_rate, kSpeedByRobot, Range{0.0, 20.0},
           "growth of the radius of an expired peer");
-    visit("largest_growth", self.largest_growth, kMetresBySize, Range{0.0, 100.0},
-          "largest growth of an expired peer's radius");
     visit("forget_time", self.forget_time, "s", Range{0.0, 3600.0},
           "an expired peer is forgotten after this");
     visit("clock_tolerance", self.clock_tolerance, "s", Range{0.0, 60.0},
           "largest difference of the robots' clocks");
-    visit("oldest_message", self.oldest_message, "s", Range{0.05, 3600.0},
-          "messages sent longer ago than this are malformed");
-    visit("largest_radius", self.largest_radius, "m", Range{0.01, 100.0},
-          "messages of larger robots are malformed");
+  }
+
+  /// No settings, but they follow the robot.
+  template <class Self, class Visitor>
+  static void visit_constants(Self& self, Visitor&& visit) {
+    visit(self.largest_growth, Scale::size, Range{0.0, 100.0});
   }
 };
 

@@ -8,6 +8,10 @@
 namespace spf {
 namespace {
 
+// The paper's "engineering setting" against oscillation: side changes widen the threshold.
+constexpr double kSideChangeWindow = 4.0;   // [s] those younger than this
+constexpr double kWideningPerChange = 0.1;  // [1] by this for each after the first
+constexpr double kMaxWidening = 0.5;        // [1] and by this at most
 constexpr std::size_t kMemorySize = 64;
 
 Eigen::Vector2d mirrored_direction(const Eigen::Vector2d& direction, const Eigen::Vector2d& along) {
@@ -47,8 +51,8 @@ void put(const GuidePair& pair, std::vector<GuidePair>& pairs) {
 
 }  // namespace
 
-FieldGuidance::FieldGuidance(const FieldParameters& parameters, double safety_distance, double least_sideways)
-    : parameters_{parameters}, safety_distance_{safety_distance}, least_sideways_{least_sideways} {
+FieldGuidance::FieldGuidance(double safety_distance, double least_sideways)
+    : safety_distance_{safety_distance}, least_sideways_{least_sideways} {
   memory_.reserve(kMemorySize);
 }
 
@@ -171,7 +175,7 @@ const FieldGuidance::Memory* FieldGuidance::find(int track_id) const {
 
 int FieldGuidance::remembered_side(int track_id, double time) const {
   const Memory* memory = find(track_id);
-  if (memory == nullptr || time - memory->time > parameters_.side_change_window) return 0;
+  if (memory == nullptr || time - memory->time > kSideChangeWindow) return 0;
   return static_cast<int>(memory->side);
 }
 
@@ -189,7 +193,7 @@ void FieldGuidance::remember(int track_id, PassingSide side, double time) {
     memory->track_id = track_id;
     memory->side = side;
   }
-  const bool fresh = time - memory->time <= parameters_.side_change_window;
+  const bool fresh = time - memory->time <= kSideChangeWindow;
   if (memory->side != side && fresh) {
     memory->changes[memory->change_count % kMaxChanges] = time;
     ++memory->change_count;
@@ -203,7 +207,7 @@ int FieldGuidance::side_changes(int track_id, double time) const {
   if (memory == nullptr) return 0;
   int recent = 0;
   for (int i = 0; i < std::min(memory->change_count, kMaxChanges); ++i)
-    if (time - memory->changes[i] <= parameters_.side_change_window) ++recent;
+    if (time - memory->changes[i] <= kSideChangeWindow) ++recent;
   return recent;
 }
 
@@ -215,7 +219,7 @@ int FieldGuidance::side_changes(double time) const {
 
 double FieldGuidance::widening(int track_id, double time) const {
   const int beyond_first = std::max(0, side_changes(track_id, time) - 1);
-  return 1.0 + std::min(parameters_.max_widening, parameters_.widening_per_change * beyond_first);
+  return 1.0 + std::min(kMaxWidening, kWideningPerChange * beyond_first);
 }
 
 }  // namespace spf

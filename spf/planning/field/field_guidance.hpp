@@ -38,7 +38,7 @@ class FieldGuidance {
   /// `safety_distance`: d_saf of eq. 10. `least_sideways`: sine of the least angle between a guide direction
   /// and the line of symmetry. Along the line no side is gained, and a point on the obstacle's axis would
   /// never leave it (paper_notes 37).
-  FieldGuidance(const FieldParameters& parameters, double safety_distance, double least_sideways);
+  FieldGuidance(double safety_distance, double least_sideways);
 
   /// Conflicts of the nodes 1 .. last_node, once per region, in the order of their first node.
   void find_conflicts(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
@@ -55,7 +55,7 @@ class FieldGuidance {
   [[nodiscard]] int remembered_side(int track_id, double time) const;
   /// Records the side a committed plan takes.
   void remember(int track_id, PassingSide side, double time);
-  /// Side changes of one obstacle within side_change_window.
+  /// Side changes of one obstacle within the last seconds.
   [[nodiscard]] int side_changes(int track_id, double time) const;
   /// Largest over all obstacles.
   [[nodiscard]] int side_changes(double time) const;
@@ -80,7 +80,6 @@ class FieldGuidance {
   [[nodiscard]] FieldConflict conflict_of(const DangerRegion& region, int index, const NodeSet& nodes,
                                           int first, int last, const FlatState& head) const;
 
-  FieldParameters parameters_;
   double safety_distance_;
   double least_sideways_;
   std::vector<Memory> memory_;

@@ -14,7 +14,7 @@ constexpr double kSafety = 0.2;
 
 struct Fixture {
   TrajectoryOptimizer optimizer{PlannerParameters{}, RobotParameters{}};
-  FieldGuidance guidance{FieldParameters{}, kSafety, 0.7};
+  FieldGuidance guidance{kSafety, 0.7};
   std::vector<DangerRegion> regions;
   std::vector<FieldConflict> conflicts;
   std::vector<SideChoice> sides;
@@ -157,11 +157,7 @@ TEST(FieldGuidance, PassesBehindAnObstacleThatCrossesHeadOn) {
 }
 
 TEST(FieldGuidance, RemembersSidesAndWidensAfterChanges) {
-  FieldParameters parameters;
-  parameters.side_change_window = 3.0;
-  parameters.widening_per_change = 0.2;
-  parameters.max_widening = 0.3;
-  FieldGuidance guidance{parameters, kSafety, 0.7};
+  FieldGuidance guidance{kSafety, 0.7};
   EXPECT_EQ(guidance.remembered_side(4, 0.0), 0);
   guidance.remember(4, PassingSide::left, 0.0);
   EXPECT_EQ(guidance.remembered_side(4, 1.0), 1);
@@ -171,17 +167,17 @@ TEST(FieldGuidance, RemembersSidesAndWidensAfterChanges) {
   EXPECT_EQ(guidance.side_changes(4, 1.0), 1);
   EXPECT_EQ(guidance.widening(4, 1.0), 1.0);  // one change is no oscillation
   guidance.remember(4, PassingSide::left, 1.5);
-  EXPECT_NEAR(guidance.widening(4, 1.5), 1.2, 1e-12);
-  guidance.remember(4, PassingSide::right, 2.0);
-  guidance.remember(4, PassingSide::left, 2.2);
-  EXPECT_NEAR(guidance.widening(4, 2.2), 1.3, 1e-12);  // capped
-  EXPECT_EQ(guidance.side_changes(2.2), 4);
+  EXPECT_NEAR(guidance.widening(4, 1.5), 1.1, 1e-12);
+  for (int i = 0; i < 6; ++i)
+    guidance.remember(4, i % 2 == 0 ? PassingSide::right : PassingSide::left, 2.0 + 0.1 * i);
+  EXPECT_NEAR(guidance.widening(4, 2.5), 1.5, 1e-12);  // capped
+  EXPECT_EQ(guidance.side_changes(2.5), 8);
   EXPECT_EQ(guidance.side_changes(4, 10.0), 0);  // forgotten
   EXPECT_EQ(guidance.remembered_side(4, 10.0), 0);
 }
 
 TEST(FieldGuidance, ForgetsTheOldestWhenTheMemoryIsFull) {
-  FieldGuidance guidance{FieldParameters{}, kSafety, 0.7};
+  FieldGuidance guidance{kSafety, 0.7};
   for (int id = 0; id < 100; ++id) guidance.remember(id, PassingSide::left, 0.01 * id);
   EXPECT_EQ(guidance.remembered_side(99, 1.0), 1);
   EXPECT_EQ(guidance.remembered_side(0, 1.0), 0);

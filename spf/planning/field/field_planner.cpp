@@ -8,6 +8,12 @@
 namespace spf {
 namespace {
 
+constexpr double kCheckedFraction = 0.667;  // [1] of the plan, from its start, that heeds what moves; the
+                                            // rest is planned again before it is driven (ES2: 2/3)
+constexpr int kMaxSideCombinations = 8;     // ways past the obstacles in conflict that are optimised
+constexpr double kSideBonus = 0.15;         // [1] discount of the side taken last time
+constexpr int kUnsafeRetries = 2;           // further runs of a candidate after a failed check (ES2)
+constexpr int kMaxRebounds = 20;            // runs cut short by a newly met static obstacle (ES2)
 constexpr std::size_t kPairCapacity = 1024;
 constexpr int kEarliestRebound = 3;  // evaluations of a run before it may be cut short (es2)
 
@@ -52,8 +58,8 @@ int last_moving_node(const NodeSet& nodes, double fraction, bool tail_is_goal, c
 
 /// The planned speed that the wheels can follow in every direction while the robot does not turn (no wheel is
 /// ever faster than the centre then). What is left for turning is found per plan (fitted_heading).
-RobotParameters within_wheel_limits(RobotParameters robot, double speed_tolerance) {
-  robot.max_speed = std::min(robot.max_speed, robot.max_wheel_speed / (1.0 + speed_tolerance));
+RobotParameters within_wheel_limits(RobotParameters robot) {
+  robot.max_speed = std::min(robot.max_speed, robot.max_wheel_speed / (1.0 + kSpeedTolerance));
   return robot;
 }
 
@@ -62,10 +68,10 @@ RobotParameters within_wheel_limits(RobotParameters robot, double speed_toleranc
 FieldPlanner::FieldPlanner(const PlannerParameters& planner, const RobotParameters& robot,
                            const FieldParameters& field)
     : planner_{validated(planner)},
-      robot_{within_wheel_limits(validated(robot), planner.speed_tolerance)},
+      robot_{within_wheel_limits(validated(robot))},
       kinematics_{robot},
-      clearance_{planner, robot, field},
-      guidance_{validated(field), planner.safety_distance, planner.least_sideways},
+      clearance_{planner, robot, validated(field)},
+      guidance_{planner.safety_distance, planner.least_sideways},
       finder_{planner.max_pieces * planner.nodes_per_piece + 1},
       search_{detour_search()},
       seeds_{planner, robot_},
@@ -141,7 +147,7 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   problem_.ends = {request.head, target.state};
   optimizer_.set(problem_, seed_);
   const NodeSet& nodes = optimizer_.nodes();
-  problem_.last_moving_node = last_moving_node(nodes, planner_.checked_fraction, target.is_goal, robot_);
+  problem_.last_moving_node = last_moving_node(nodes, kCheckedFraction, target.is_goal, robot_);
   problem_.discs = &clearance_.discs();
   problem_.static_pairs = &static_pairs_;
   (planner_.dynamic_model == DynamicModel::frozen ? problem_.frozen_pairs : problem_.field_pairs) =
@@ -161,7 +167,7 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   const int sides =
       planner_.dynamic_model == DynamicModel::probability_field ? static_cast<int>(conflicts_.size()) : 0;
   int free_sides = 0;
-  while (free_sides < sides && (2 << free_sides) <= planner_.max_side_combinations) ++free_sides;
+  while (free_sides < sides && (2 << free_sides) <= kMaxSideCombinations) ++free_sides;
   for (int mask = 0; mask < (1 << free_sides); ++mask) {
     sides_.assign(clearance_.regions().size(), SideChoice{});
     for (std::size_t i = 0; i < conflicts_.size(); ++i) {
@@ -191,7 +197,7 @@ bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kin
   while (true) {
     if (result.stats.evaluations + planner_.run_evaluations > planner_.max_evaluations) return false;
     bool rebound = false;
-    const OptimizerResult run = launch(rebounds < planner_.max_rebounds, rebound, result);
+    const OptimizerResult run = launch(rebounds < kMaxRebounds, rebound, result);
     current_ = optimizer_.solution();
     if (run.outcome == LbfgsOutcome::not_finite) return true;
     if (rebound) {
@@ -207,7 +213,7 @@ bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kin
       keep_best(request, run, kind, trajectory, until, result);
       return true;
     }
-    if (failed_checks++ >= planner_.unsafe_retries || !answer(request)) return true;
+    if (failed_checks++ >= kUnsafeRetries || !answer(request)) return true;
   }
 }
 
@@ -264,8 +270,8 @@ bool FieldPlanner::within_limits(const LimitReport& limits, const FlatState& hea
   // What the head exceeds already (after a push) is no fault of the plan.
   const double head_speed = head.velocity_world.norm() / robot_.max_speed;
   const double head_acceleration = head.acceleration_world.norm() / robot_.max_acceleration;
-  return limits.speed <= std::max(1.0, head_speed) + planner_.speed_tolerance &&
-         limits.acceleration <= std::max(1.0, head_acceleration) + planner_.acceleration_tolerance;
+  return limits.speed <= std::max(1.0, head_speed) + kSpeedTolerance &&
+         limits.acceleration <= std::max(1.0, head_acceleration) + kAccelerationTolerance;
 }
 
 void FieldPlanner::keep_best(const PlanRequest& request, const OptimizerResult& run, Candidate::Kind kind,
@@ -292,7 +298,7 @@ double FieldPlanner::side_discount(double time) const {
     if (before != static_cast<int>(sides_[r].side)) return 1.0;
     remembered = true;
   }
-  return remembered ? 1.0 - planner_.side_bonus : 1.0;
+  return remembered ? 1.0 - kSideBonus : 1.0;
 }
 
 /// Largest risk of any field along the part that heeds what moves.

@@ -446,7 +446,7 @@ TEST(FieldPlanner, RefusesWhatIsNoRequest) {
   EXPECT_EQ(result.outcome, PlanOutcome::invalid_request);
   EXPECT_FALSE(result.trajectory.empty());
   PlannerParameters parameters;
-  parameters.max_pieces = 1;
+  parameters.horizon = 0.0;
   EXPECT_THROW((FieldPlanner{parameters, RobotParameters{}, FieldParameters{}}), std::invalid_argument);
 }
 

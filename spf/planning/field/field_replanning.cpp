@@ -7,6 +7,8 @@
 namespace spf {
 namespace {
 
+constexpr double kRetryFirst = 0.2;    // [s] back-off after a failed plan; it doubles each time
+constexpr double kRetryLongest = 1.6;  // [s] longest back-off
 constexpr double kCommittedMargin =
     0.5;  // [1] of the margins: a plan is not dropped for what it was accepted with
 constexpr double kEvasionHorizon = 3.0;  // [s]
@@ -115,8 +117,7 @@ void FieldReplanning::attempt(const PlanRequest& request, const Threat& threat, 
     return;
   }
   // No plan: wait a little longer each time before the next attempt.
-  back_off_ =
-      back_off_ > 0.0 ? std::min(2.0 * back_off_, replanning_.retry_longest) : replanning_.retry_first;
+  back_off_ = back_off_ > 0.0 ? std::min(2.0 * back_off_, kRetryLongest) : kRetryFirst;
   retry_time_ = request.time + back_off_;
   name_blocker(request, result);
   fail(request, threat, result);

@@ -8,8 +8,6 @@ namespace spf {
 struct ReplanningParameters {
   double replan_period = 1.0;   ///< [s] a plan is renewed at least this often
   double emergency_time = 1.0;  ///< [s] predicted contact sooner than this (or than braking takes): brake
-  double retry_first = 0.2;     ///< [s] back-off after a failed plan
-  double retry_longest = 1.6;   ///< [s] longest back-off
   bool retreat = true;          ///< step aside when standing would be run into and no plan is found
 
   template <class Self, class Visitor>
@@ -18,9 +16,6 @@ struct ReplanningParameters {
           "a plan of the paper's planner is renewed at least this often");
     visit("emergency_time", self.emergency_time, "s", Range{0.0, 10.0},
           "a predicted contact sooner than this makes the robot brake when it finds no plan");
-    visit("retry_first", self.retry_first, "s", Range{0.0, 10.0}, "first wait after a failed plan");
-    visit("retry_longest", self.retry_longest, "s", Range{0.0, 60.0},
-          "longest wait after failed plans (it doubles each time)");
     visit("retreat", self.retreat, "step aside when standing would be run into and no plan is found");
   }
 };

@@ -6,6 +6,7 @@
 namespace spf {
 namespace {
 
+constexpr double kSlowFactor = 1.8;     // [1] stretch of time of the slow seed
 constexpr double kShortestPiece = 0.3;  // [s] of a seed
 
 double length_of(const std::vector<Eigen::Vector2d>& corners) {
@@ -106,7 +107,7 @@ bool SeedMaker::make(SeedKind kind, const PlanRequest& request, const LocalTarge
       along_way(request, target, -kBow * robot_.radius, 1.1, seed);
       return true;
     case SeedKind::slow:
-      along_way(request, target, 0.0, planner_.slow_factor, seed);
+      along_way(request, target, 0.0, kSlowFactor, seed);
       return true;
   }
   return false;

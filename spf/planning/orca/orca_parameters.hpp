@@ -11,11 +11,9 @@ struct OrcaParameters {
   double time_horizon_static = 1.0;  ///< [s] likewise with static surfaces
   double neighbour_distance = 10.0;  ///< [m] between surfaces; who is farther does not count
   int max_neighbours = 16;           ///< [1] and of those within it only the nearest
-  double obstacle_share = 1.0;    ///< [1] of avoiding a moving obstacle; 1/2 takes it for one that avoids too
-  int static_samples = 12;        ///< [1] places around the robot from which static surfaces are sought
-  double period = 0.1;            ///< [s] a velocity is held this long: the time until the next plan
-  double goal_tolerance = 0.005;  ///< [m] nearer to the goal no velocity is wanted
-  double right_hand_bias = 0.01;  ///< [rad] the wanted velocity turns right by this when others are near
+  double obstacle_share = 1.0;  ///< [1] of avoiding a moving obstacle; 1/2 takes it for one that avoids too
+  double period = 0.1;  ///< [s] a velocity is held this long: the agent's plan_period, no setting of its own
+  double goal_tolerance = 0.005;   ///< [m] nearer to the goal no velocity is wanted
   bool limit_acceleration = true;  ///< false: the chosen velocity is taken up at once, as published
 
   template <class Self, class Visitor>
@@ -31,16 +29,14 @@ struct OrcaParameters {
     visit("max_neighbours", self.max_neighbours, "1", Range{0, 1000}, "nearest others that count");
     visit("obstacle_share", self.obstacle_share, "1", Range{0.0, 1.0},
           "part of avoiding a moving obstacle that falls to the robot; 1/2 takes it for one that avoids too");
-    visit("static_samples", self.static_samples, "1", Range{0, 100},
-          "places on a circle around the robot from which static surfaces are sought");
-    visit("period", self.period, "s", Range{0.01, 2.0},
-          "a velocity is held this long; the agent's plan_period");
-    visit("goal_tolerance", self.goal_tolerance, kMetresBySize, Range{1e-6, 1.0},
-          "nearer to the goal than this no velocity is wanted");
-    visit("right_hand_bias", self.right_hand_bias, "rad", Range{-1.0, 1.0},
-          "turn of the wanted velocity to the right when others are near; it breaks symmetry");
     visit("limit_acceleration", self.limit_acceleration,
           "approach the chosen velocity at max_acceleration instead of taking it up at once");
+  }
+
+  /// No settings, but they follow the robot.
+  template <class Self, class Visitor>
+  static void visit_constants(Self& self, Visitor&& visit) {
+    visit(self.goal_tolerance, Scale::size, Range{1e-6, 1.0});
   }
 };
 

@@ -12,6 +12,8 @@
 namespace spf {
 namespace {
 
+constexpr int kStaticSamples = 12;       // places around the robot from which static surfaces are sought
+constexpr double kRightHandBias = 0.01;  // [rad] the wanted velocity turns right by this when others are near
 constexpr double kParallel = 1e-12;      // [1] sine of the angle between lines that count as parallel
 constexpr double kSlack = 1e-10;         // [m/s] rounding that is no violation
 constexpr double kStandingSpeed = 1e-6;  // [m/s] slower is standing
@@ -167,10 +169,10 @@ OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters
                          const PlannerParameters& planner)
     : parameters_{validated(parameters)},
       robot_{validated(robot)},
-      programme_{static_cast<std::size_t>(parameters_.max_neighbours + parameters_.static_samples + 1)},
+      programme_{static_cast<std::size_t>(parameters_.max_neighbours + kStaticSamples + 1)},
       judge_{validated(planner), robot_} {
   const auto neighbours = static_cast<std::size_t>(parameters_.max_neighbours);
-  const auto points = static_cast<std::size_t>(parameters_.static_samples + 1);
+  const auto points = static_cast<std::size_t>(kStaticSamples + 1);
   surface_points_.reserve(points);
   neighbours_.reserve(neighbours + 1);
   planes_.reserve(neighbours + points);
@@ -219,7 +221,7 @@ Eigen::Vector2d OrcaPlanner::wanted_velocity(const PlanRequest& request) const {
     speed = limit * (std::sqrt(period * period + 2.0 * distance / limit) - period);
   }
   const Eigen::Vector2d velocity = std::min(speed, robot_.max_speed) * guide.direction(position);
-  const double bias = neighbours_.empty() ? 0.0 : parameters_.right_hand_bias;
+  const double bias = neighbours_.empty() ? 0.0 : kRightHandBias;
   return std::cos(bias) * velocity - std::sin(bias) * left_of(velocity);
 }
 
@@ -243,8 +245,8 @@ void OrcaPlanner::add_static_planes(const PlanRequest& request, const Eigen::Vec
   }
   add_surface_point(request, position);
   const double ahead = std::atan2(wanted.y(), wanted.x());
-  for (int i = 0; i < parameters_.static_samples; ++i) {
-    const double angle = ahead + 2.0 * kPi * i / parameters_.static_samples;
+  for (int i = 0; i < kStaticSamples; ++i) {
+    const double angle = ahead + 2.0 * kPi * i / kStaticSamples;
     add_surface_point(request, position + 0.5 * farthest * Eigen::Vector2d{std::cos(angle), std::sin(angle)});
   }
   for (const Eigen::Vector2d& point : surface_points_) {

@@ -9,6 +9,9 @@
 namespace spf {
 namespace {
 
+constexpr double kSlowFraction = 0.5;  // [1] of max_speed: the second speed of the sidesteps
+constexpr double kEarlyProgress =
+    0.3;  // [1] weight of the way to go at instants before the horizon: no putting off
 constexpr int kProgressSamples = 3;
 constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter ways are not smoothed
 
@@ -46,7 +49,7 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
     const auto at = static_cast<std::size_t>(i * roll_out.steps / (kProgressSamples + 1));
     between += guide.cost_to_go(roll_out.position_world[at]);
   }
-  score.time += parameters_.early_progress * between / (kProgressSamples * settings_.max_speed);
+  score.time += kEarlyProgress * between / (kProgressSamples * settings_.max_speed);
   if (score.time > enough) return score;
 
   // Static surfaces: the chance that the own position error reaches one. It does not fade: a wall will still
@@ -124,7 +127,7 @@ void SpaceTimePlanner::consider_previous(const PlanRequest& request, PlanResult&
 void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult& result) {
   const Eigen::Vector2d ahead = request.guide->direction(request.head.position_world);
   const double base = ahead.squaredNorm() > 0.0 ? std::atan2(ahead.y(), ahead.x()) : 0.0;
-  const std::array<double, 2> speeds{settings_.max_speed, parameters_.slow_fraction * settings_.max_speed};
+  const std::array<double, 2> speeds{settings_.max_speed, kSlowFraction * settings_.max_speed};
   for (int i = 0; i < parameters_.headings; ++i) {
     const double angle = base + 2.0 * kPi * i / parameters_.headings;
     const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
@@ -188,7 +191,6 @@ int SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind ki
 }
 
 bool SpaceTimePlanner::smooth_best(const PlanRequest& request, PlanResult& result) {
-  if (!parameters_.smoothing) return false;
   // Standing is smooth as it is; optimised, it would lean away from the risk and back again.
   const Eigen::Vector2d& tail = best_.position_world[static_cast<std::size_t>(best_.steps)];
   if ((tail - best_.position_world[0]).norm() < kLeastSmoothed * robot_.max_speed) return false;

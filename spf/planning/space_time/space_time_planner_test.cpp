@@ -242,7 +242,7 @@ TEST_F(SpaceTimePlannerTest, DoesNotAllocate) {
 
 TEST_F(SpaceTimePlannerTest, RefusesParametersOutOfRange) {
   SpaceTimeParameters parameters;
-  parameters.step = 0.0;
+  parameters.horizon = 0.0;
   EXPECT_THROW((void)make_planner(parameters), std::invalid_argument);
 }
 
@@ -333,9 +333,8 @@ TEST_F(SpaceTimePlannerTest, AlwaysGivesAFiniteTrajectoryWithinLimitsThatStartsA
     EXPECT_LT((start.position_world - request.head.position_world).norm(), 1e-12);
     EXPECT_LT((start.velocity_world - request.head.velocity_world).norm(), 1e-12);
     // The tolerances with which every plan is accepted.
-    EXPECT_LE(trajectory.max_speed(), robot.max_speed * (1.0 + planner_defaults.speed_tolerance) + 1e-9);
-    EXPECT_LE(trajectory.max_acceleration(),
-              robot.max_acceleration * (1.0 + planner_defaults.acceleration_tolerance) + 1e-9);
+    EXPECT_LE(trajectory.max_speed(), robot.max_speed * (1.0 + kSpeedTolerance) + 1e-9);
+    EXPECT_LE(trajectory.max_acceleration(), robot.max_acceleration * (1.0 + kAccelerationTolerance) + 1e-9);
     EXPECT_TRUE(trajectory.tail_position().allFinite());
     EXPECT_LT(trajectory.state(trajectory.end_time() - 1e-9).velocity_world.norm(), 1e-5);
     EXPECT_TRUE(std::isfinite(result.risk)) << result.risk;

@@ -9,7 +9,8 @@
 namespace spf {
 namespace {
 
-constexpr double kNegligibleSigmas = 4.0;  // Phi(-4) = 3e-5: a 1000 s contact then costs 0.03 s at most
+constexpr double kStandingPeerGrowth = 0.25;  // [1] of the growth of a peer's uncertainty, while it stands
+constexpr double kNegligibleSigmas = 4.0;     // Phi(-4) = 3e-5: a 1000 s contact then costs 0.03 s at most
 
 }  // namespace
 
@@ -99,12 +100,12 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   // A peer that stands cannot be asked to yield; a moving one that comes after us will.
   const bool yields =
       goes_first(request.world.rank(), peer.rank()) && peer.state == PeerState::moving && !peer.expired;
-  entity.weight = yields ? parameters_.lower_priority_weight : 1.0;
+  entity.weight = yields ? kLowerPriorityWeight : 1.0;
   entity.radius = robot_radius_ + peer.radius + peer.growth + parameters_.peer_margin;
   // One that stands moves off only when it has to dodge or to go on.
   const bool stands = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
   entity.stands = stands && !peer.expired;
-  const double growth = parameters_.peer_sigma_growth * (stands ? parameters_.standing_peer_growth : 1.0);
+  const double growth = parameters_.peer_sigma_growth * (stands ? kStandingPeerGrowth : 1.0);
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double ahead = k * parameters_.step;

@@ -22,6 +22,8 @@ class SpaceTimeRisk {
  public:
   static constexpr int kMaxSteps = 30;
   static constexpr int kMaxEntities = 48;
+  static constexpr double kLowerPriorityWeight =
+      0.3;  ///< [1] of the risk with peers that yield to this robot
 
   /// One obstacle or peer: where it is believed to be at each step.
   struct Entity {

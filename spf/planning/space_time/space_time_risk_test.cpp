@@ -148,7 +148,7 @@ TEST(SpaceTimeRisk, CountsAPeerThatYieldsByItsWeightOnly) {
   risk.prepare(scene.request());
   const double standing = standing_risk(risk, {1.0, 0.0});
   // Not equal: the spread of a moving peer grows a little faster.
-  EXPECT_NEAR(yielding / standing, SpaceTimeParameters{}.lower_priority_weight, 0.1);
+  EXPECT_NEAR(yielding / standing, SpaceTimeRisk::kLowerPriorityWeight, 0.1);
 }
 
 TEST(SpaceTimeRisk, GrowsWithOwnUncertaintyOutsideTheRadius) {

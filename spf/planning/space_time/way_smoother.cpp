@@ -8,17 +8,18 @@
 namespace spf {
 namespace {
 
+constexpr int kEvaluations = 40;   // of the cost at most
 constexpr int kStepsPerPiece = 5;  // of the roll-out: half a second at 0.1 s
 
 /// The paper's optimiser with the space-time field in place of guide pairs, peers' discs and spacing.
-PlannerParameters smoothing_parameters(PlannerParameters planner, const SpaceTimeParameters& space_time) {
+PlannerParameters smoothing_parameters(PlannerParameters planner) {
   planner.weights.peers = 0.0;
   planner.weights.static_hard = 0.0;
   planner.weights.static_soft = 0.0;
   planner.weights.spacing = 0.0;
   planner.weights.dynamic = 0.0;
   planner.nodes_per_piece = kStepsPerPiece;
-  planner.run_evaluations = space_time.smoothing_evaluations;
+  planner.run_evaluations = kEvaluations;
   planner.max_pieces = std::max(planner.max_pieces, SpaceTimeRisk::kMaxSteps / kStepsPerPiece);
   return planner;
 }
@@ -28,7 +29,7 @@ PlannerParameters smoothing_parameters(PlannerParameters planner, const SpaceTim
 WaySmoother::WaySmoother(const SpaceTimeParameters& space_time, const PlannerParameters& planner,
                          const RobotParameters& robot)
     : space_time_{space_time},
-      planner_{smoothing_parameters(planner, space_time)},
+      planner_{smoothing_parameters(planner)},
       robot_{robot},
       optimizer_{planner_, robot} {}
 
@@ -66,10 +67,9 @@ bool WaySmoother::smooth(const RollOut& roll_out, const PlanRequest& request, co
   const FlatState tail{problem_.ends.tail.position_world, problem_.ends.tail.velocity_world,
                        Eigen::Vector2d::Zero()};
   append_braking(tail, settings, smooth);
-  return smooth.max_speed() <= (1.0 + planner_.speed_tolerance) * robot_.max_speed &&
-         smooth.max_acceleration() <=
-             std::max((1.0 + planner_.acceleration_tolerance) * robot_.max_acceleration,
-                      request.head.acceleration_world.norm() + 1e-9);
+  return smooth.max_speed() <= (1.0 + kSpeedTolerance) * robot_.max_speed &&
+         smooth.max_acceleration() <= std::max((1.0 + kAccelerationTolerance) * robot_.max_acceleration,
+                                               request.head.acceleration_world.norm() + 1e-9);
 }
 
 }  // namespace spf
