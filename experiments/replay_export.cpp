@@ -98,29 +98,25 @@ void describe_movers(ReplayData& data, const sim::Recording& recording, const St
 ReplayStateKind kind_of(const sim::RecordedRobot& robot) {
   if (robot.wrecked) return ReplayStateKind::trouble;
   switch (robot.status.reason) {
-    case StandReason::none:
+    case StopCause::none:
       return robot.status.state == PeerState::braking ? ReplayStateKind::braking : ReplayStateKind::moving;
-    case StandReason::arrived:
+    case StopCause::arrived:
       return ReplayStateKind::arrived;
-    case StandReason::no_goal:
-    case StandReason::obstacle_ahead:
-    case StandReason::peer_ahead:
-    case StandReason::paused:
+    case StopCause::no_goal:
+    case StopCause::obstacle_ahead:
+    case StopCause::peer_ahead:
+    case StopCause::paused:
       return ReplayStateKind::waiting;
-    case StandReason::no_path:
-    case StandReason::planner_failed:
-    case StandReason::stale_pose:
-    case StandReason::stale_scan:
+    default:  // a fault of the planner, or one that its host's watchdog found
       return ReplayStateKind::trouble;
   }
-  return ReplayStateKind::trouble;
 }
 
 std::string state_text(const sim::RecordedRobot& robot) {
   if (robot.wrecked) return "wrecked";
   std::string text = to_string(robot.status.reason);
   if (robot.status.culprit >= 0) text += " " + std::to_string(robot.status.culprit);
-  if (robot.status.reason != StandReason::none && robot.status.state == PeerState::braking)
+  if (robot.status.reason != StopCause::none && robot.status.state == PeerState::braking)
     text += " (braking)";
   return text;
 }

@@ -44,7 +44,7 @@ std::string overtime_text(const sim::TrialResult& result) {
     }
     const auto longest = std::max_element(robot.stood.begin(), robot.stood.end());
     if (*longest <= 0.0) continue;
-    const StandReason reason = static_cast<StandReason>(longest - robot.stood.begin());
+    const StopCause reason = static_cast<StopCause>(longest - robot.stood.begin());
     text += " (" + std::string{to_string(reason)} + ", " + fixed(*longest, 1) + " s)";
   }
   return text.empty() ? "stopped before the end" : text;

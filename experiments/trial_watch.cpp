@@ -6,7 +6,7 @@ namespace spf {
 
 void TrialWatch::frame(const sim::TrialFrame& frame) {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    robots_[i].status = (*frame.agents)[i].status();
+    robots_[i].status = (*frame.hosts)[i].agent().status();
     largest_wheel_speed_ = std::max({largest_wheel_speed_, (*frame.wheel_speeds)[i].cwiseAbs().maxCoeff(),
                                      (*frame.wheel_commands)[i].cwiseAbs().maxCoeff()});
   }
@@ -44,7 +44,7 @@ CauseRecord TrialWatch::cause(int robot, double time) const {
   }
   if (known.status) {
     cause.stand_reason =
-        known.status->reason == StandReason::none ? "moving" : to_string(known.status->reason);
+        known.status->reason == StopCause::none ? "moving" : to_string(known.status->reason);
     cause.culprit = known.status->culprit;
   }
   return cause;

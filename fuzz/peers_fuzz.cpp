@@ -58,16 +58,13 @@ void tell_table(fuzz::Bytes bytes) {
 }
 
 void tell_agent(fuzz::Bytes bytes) {
-  RobotAgent agent{0, fuzz::agent_of(bytes), fuzz::small_map(), Pose2{}, 0.0};
-  agent.set_goal({3.0, 0.0});
+  host::RobotHost robot = fuzz::trusting_robot(fuzz::agent_of(bytes));
   for (int i = 0; i < 6; ++i) {
     const double now = 0.1 * i;
-    AgentInput input;
-    input.poses.push_back({now, Pose2{}});
-    input.observation.emplace().time = now;
+    robot.add_pose({now, Pose2{}}, now);
     const int count = bytes.up_to(3);
-    for (int k = 0; k < count; ++k) input.messages.push_back(message_of(bytes, now));
-    fuzz::step(agent, now, input);
+    for (int k = 0; k < count; ++k) robot.add_message(message_of(bytes, now), now);
+    fuzz::step(robot, now);
   }
 }
 
@@ -75,10 +72,10 @@ void tell_hosts(fuzz::Bytes bytes) {
   host::HostParameters parameters;
   parameters.relies_on_scan = parameters.relies_on_obstacles = false;
   const AgentParameters agent = fuzz::agent_of(bytes);
-  host::PlannerHost planner{0, agent, parameters};
-  host::TrackerHost tracker{0, agent, parameters};
-  planner.set_map(fuzz::small_map());
-  planner.set_goal({{3.0, 0.0}, std::nullopt});
+  host::PlannerProcess planner{0, agent, parameters};
+  host::TrackerProcess tracker{0, agent, parameters};
+  planner.planner().set_map(fuzz::small_map());
+  planner.planner().set_goal({{3.0, 0.0}, std::nullopt});
   for (int i = 0; i < 60; ++i) {
     const double now = 10.0 + 0.02 * i;
     planner.add_pose({now, Pose2{}}, now);
@@ -93,7 +90,7 @@ void tell_hosts(fuzz::Bytes bytes) {
     planner.step(now);
     fuzz::require(tracker.step(now).wheel_speeds.allFinite(), "wheel speeds are numbers");
   }
-  if (planner.agent() != nullptr) fuzz::require_sound(*planner.agent());
+  if (planner.planner().agent() != nullptr) fuzz::require_sound(*planner.planner().agent());
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
-// A robot for fuzz programs: its agent, both hosts, and what must hold of them whatever comes in.
+// A robot for fuzz programs: in one process, or split, and what must hold of it whatever comes in.
 #pragma once
 
 #include <cmath>
 
 #include "fuzz/fuzz_input.hpp"
 #include "host/perception_host.hpp"
-#include "host/planner_host.hpp"
-#include "host/tracker_host.hpp"
+#include "host/robot_host.hpp"
+#include "host/split_host.hpp"
 #include "spf/team/method_table.hpp"
 #include "spf/team/robot_agent.hpp"
 
@@ -42,13 +42,24 @@ inline void require_sound(const RobotAgent& agent) {
             "tracks are somewhere");
 }
 
-inline void step(RobotAgent& agent, double time, const AgentInput& input) {
-  const AgentOutput output = agent.step(time, input);
-  require(output.wheel_speeds.allFinite(), "wheel speeds are numbers");
-  require_sound(agent);
+/// A robot that takes whatever is given at its word, already started.
+inline host::RobotHost trusting_robot(const AgentParameters& agent) {
+  host::HostParameters parameters;
+  parameters.relies_on_scan = parameters.relies_on_obstacles = false;
+  parameters.trusts_peers = true;
+  host::RobotHost robot{0, agent, parameters};
+  robot.planner().set_goal({{3.0, 0.0}, std::nullopt});
+  robot.start(small_map(), Pose2{}, 0.0);
+  return robot;
 }
 
-/// The first byte of an input chooses who is given the rest: one agent, a robot's hosts, or one part alone.
+inline void step(host::RobotHost& robot, double time) {
+  require(robot.step(time).wheel_speeds.allFinite(), "wheel speeds are numbers");
+  if (robot.planner().agent() != nullptr) require_sound(*robot.planner().agent());
+}
+
+/// The first byte of an input chooses who is given the rest: a robot without gates, a robot with them, or one
+/// part alone.
 inline void give(Bytes bytes, void (*to_agent)(Bytes), void (*to_hosts)(Bytes), void (*to_part)(Bytes)) {
   const int choice = bytes.up_to(3);
   (choice == 0 ? to_agent : choice == 1 ? to_hosts : to_part)(bytes);

@@ -58,9 +58,9 @@ void tell_map(fuzz::Bytes bytes) {
 void tell_hosts(fuzz::Bytes bytes) {
   const host::HostParameters parameters;
   host::PerceptionHost perception{AgentParameters{}, parameters};
-  host::PlannerHost planner{0, fuzz::agent_of(bytes), parameters};
-  planner.set_map(fuzz::small_map());
-  planner.set_goal({{3.0, 0.0}, std::nullopt});
+  host::PlannerProcess planner{0, fuzz::agent_of(bytes), parameters};
+  planner.planner().set_map(fuzz::small_map());
+  planner.planner().set_goal({{3.0, 0.0}, std::nullopt});
   for (int i = 0; i < 50; ++i) {
     const double now = 10.0 + 0.02 * i;
     perception.add_pose({now, Pose2{}}, now);
@@ -68,25 +68,23 @@ void tell_hosts(fuzz::Bytes bytes) {
     if (i >= 30 && i % 5 == 0) {
       const Observation observation = observation_of(bytes, now);
       if (auto sensed = perception.add_scan(observation.time, *observation.scan, pose_of(bytes), now))
-        planner.add_observation(std::move(*sensed), now);
+        planner.add_observation(*sensed, now);
       if (auto sensed = perception.add_detections(observation.time, observation.detections, now))
-        planner.add_observation(std::move(*sensed), now);
+        planner.add_observation(*sensed, now);
       planner.add_observation({observation, true}, now);  // past the first gate
     }
     planner.step(now);
   }
-  if (planner.agent() != nullptr) fuzz::require_sound(*planner.agent());
+  if (planner.planner().agent() != nullptr) fuzz::require_sound(*planner.planner().agent());
 }
 
 void tell_agent(fuzz::Bytes bytes) {
-  RobotAgent agent{0, fuzz::agent_of(bytes), fuzz::small_map(), Pose2{}, 0.0};
-  agent.set_goal({3.0, 0.0});
+  host::RobotHost robot = fuzz::trusting_robot(fuzz::agent_of(bytes));
   for (int i = 0; i < 5; ++i) {
     const double now = 0.1 * i;
-    AgentInput input;
-    input.poses.push_back({now, pose_of(bytes)});
-    input.observation = observation_of(bytes, now);
-    fuzz::step(agent, now, input);
+    robot.add_pose({now, pose_of(bytes)}, now);
+    robot.add_observation({observation_of(bytes, now), true}, now);
+    fuzz::step(robot, now);
   }
 }
 

@@ -1,5 +1,5 @@
-// One robot on a bench: both hosts, wheels that obey at once, and a clock, poses and sensors that can be made
-// to fail. What is true is kept apart from what the hosts are told. Frame: world.
+// One robot on a bench, in one process or split into two: wheels that obey at once, and a clock, poses and
+// sensors that can be made to fail. What is true is kept apart from what the hosts are told. Frame: world.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "host/planner_host.hpp"
-#include "host/tracker_host.hpp"
+#include "host/robot_host.hpp"
+#include "host/split_host.hpp"
 #include "spf/math/angles.hpp"
 
 namespace spf::host {
@@ -26,17 +26,36 @@ struct Pillar {
   double radius;
 };
 
+/// Of a robot's planner and controller.
+enum class Arrangement { one_process, split };
+
+inline std::string name_of(const testing::TestParamInfo<Arrangement>& info) {
+  return info.param == Arrangement::split ? "split" : "one_process";
+}
+
+/// So that failed comparisons can be read.
+inline void PrintTo(StopCause cause, std::ostream* stream) {
+  *stream << to_string(cause);
+}
+
 class Bench {
  public:
   static constexpr double kTick =
       0.01;  // [s] poses; observations and plans come every tenth, commands every fifth
 
-  explicit Bench(const HostParameters& parameters = {}, int robot_id = 0)
+  explicit Bench(Arrangement arrangement = Arrangement::split, const HostParameters& parameters = {},
+                 std::uint32_t first_sequence = 0)
       : host{parameters},
-        planner{robot_id, AgentParameters{}, parameters},
-        tracker{robot_id, AgentParameters{}, parameters} {
+        robot{0, AgentParameters{}, parameters, Motion::by_wheels, first_sequence},
+        planning{0, AgentParameters{}, parameters, first_sequence},
+        driving{0, AgentParameters{}, parameters},
+        split{arrangement == Arrangement::split},
+        planner{split ? planning.planner() : robot.planner()},
+        tracker{split ? driving.tracker() : robot.tracker()} {
     planner.set_map(open_map());
   }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
 
   void tick() {
     ++ticks_;
@@ -68,24 +87,38 @@ class Bench {
   void drive() {
     ASSERT_TRUE(planner.set_goal({{15.0, 0.0}, std::nullopt}));
     run(3.5);
-    ASSERT_GT(speed(), 0.9) << planner.status().reason << ", " << to_string(tracker.command().mode);
+    ASSERT_GT(speed(), 0.9) << planner.status().reason << ", " << to_string(cause());
   }
   [[nodiscard]] double speed() const { return velocity_world.norm(); }
-  [[nodiscard]] TrackerMode mode() const { return tracker.command().mode; }
+  /// Why the controller brakes or stands.
+  [[nodiscard]] StopCause cause() const { return tracker.command().stop; }
+  void set_switches(const Switches& switches) {
+    robot.set_switches(switches);
+    planning.planner().set_switches(switches);
+    driving.tracker().set_switches(switches);
+  }
+  [[nodiscard]] std::vector<std::uint32_t> clock_jumps() const {
+    if (!split) return {robot.clock_jumps()};
+    return {planning.clock_jumps(), driving.clock_jumps()};
+  }
   [[nodiscard]] std::string reason() const { return planner.status().reason; }
   /// What a restart by the system does to each.
   void restart_planner() {
-    planner = PlannerHost{0, AgentParameters{}, host};
+    planning = PlannerProcess{0, AgentParameters{}, host};
     planner.set_map(open_map());
   }
-  void restart_tracker() { tracker = TrackerHost{0, AgentParameters{}, host}; }
+  void restart_tracker() { driving = TrackerProcess{0, AgentParameters{}, host}; }
 
   HostParameters host;
-  PlannerHost planner;
-  TrackerHost tracker;
-  double time = 100.0;        // [s] true
-  double now = 100.0;         // [s] as the clock says
-  double clock_offset = 0.0;  // [s]
+  RobotHost robot;          // of one process
+  PlannerProcess planning;  // of two
+  TrackerProcess driving;   // likewise
+  bool split;
+  PlannerHost& planner;        // of the arrangement
+  const TrackerHost& tracker;  // likewise
+  double time = 100.0;         // [s] true
+  double now = 100.0;          // [s] as the clock says
+  double clock_offset = 0.0;   // [s]
   Pose2 pose;
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();
   double yaw_rate = 0.0;
@@ -98,13 +131,16 @@ class Bench {
   std::vector<Pillar> pillars;
   double clearance = std::numeric_limits<double>::infinity();  // [m] least so far, to pillars
   double hardest_braking = 0.0;                                // [m/s^2] of the commands since the last reset
-  std::vector<PoseVerdict> pose_verdicts;
 
  private:
   [[nodiscard]] Pose2 distorted(const Pose2& truth) const { return distort ? distort(truth) : truth; }
   void tell_pose(const PoseMeasurement& measured) {
-    pose_verdicts.push_back(tracker.add_pose(measured, now));
-    if (planner_alive) planner.add_pose(measured, now);
+    if (!split) {
+      robot.add_pose(measured, now);
+      return;
+    }
+    driving.add_pose(measured, now);
+    if (planner_alive) planning.add_pose(measured, now);
   }
   void observe() {
     if (!planner_alive) return;
@@ -112,13 +148,19 @@ class Bench {
       SensedWorld sensed;
       sensed.observation.time = now;
       sensed.has_detections = true;
-      planner.add_observation(sensed, now);
+      tell_seen(sensed);
     }
     if (!send_scans) return;
     SensedWorld sensed;
     sensed.observation.time = now;
     sensed.observation.scan = scan();
-    planner.add_observation(sensed, now);
+    tell_seen(sensed);
+  }
+  void tell_seen(const SensedWorld& sensed) {
+    if (split)
+      planning.add_observation(sensed, now);
+    else
+      robot.add_observation(sensed, now);
   }
   [[nodiscard]] RangeScan scan() const {
     constexpr int kBeams = 360;
@@ -140,11 +182,12 @@ class Bench {
     return result;
   }
   void think() {
-    const PlannerOutput& output = planner.step(now);
-    if (output.planned) tracker.add_plan(output.plan, now);
+    const PlannerOutput& output = split ? planning.step(now) : robot.plan(now);
+    if (split && output.planned) driving.add_plan(output.plan, now);
   }
   void control() {
-    const TrackerCommand& command = tracker.step(now);
+    const TrackerCommand& command = split ? driving.step(now) : robot.control(now);
+    if (split && planner_alive) planning.add_command(now, command.wheel_speeds, now);
     const Eigen::Vector3d twist = twist_in_world(command.twist_body, pose.heading);
     hardest_braking = std::max(hardest_braking, (speed() - twist.head<2>().norm()) / (5.0 * kTick));
     velocity_world = twist.head<2>();

@@ -1,4 +1,5 @@
-// Each fault and its reaction, both hosts together: the table of docs/ros.md, without ROS.
+// Each fault and its reaction, of a robot in one process and of one that is split: the table of docs/ros.md,
+// without ROS.
 #include <gtest/gtest.h>
 
 #include "host/bench_test.hpp"
@@ -6,9 +7,9 @@
 namespace spf::host {
 namespace {
 
-constexpr double kStale = 0.3;       // [s] TeamParameters::stale_time
-constexpr double kReaction = 0.1;    // [s] within which braking begins
-constexpr double kStanding = 0.005;  // [m/s], [m] of a controller that settles on its place
+constexpr double kStale = 0.3;            // [s] TeamParameters::stale_time
+constexpr double kReaction = 0.1 + 1e-9;  // [s] within which braking begins, and rounding
+constexpr double kStanding = 0.005;       // [m/s], [m] of a controller that settles on its place
 constexpr double kTick = Bench::kTick;
 
 /// Brakes in time, at the largest planned acceleration, stands with this reason, and goes on by itself.
@@ -22,8 +23,8 @@ void expect_brakes_and_recovers(Bench& bench, bool& working, double earliest, do
   const Eigen::Vector2d begun = bench.pose.position_world;
   bench.run(2.0);
   EXPECT_LT(bench.speed(), kStanding);
-  EXPECT_TRUE(bench.reason() == reason || to_string(bench.mode()) == reason)
-      << bench.reason() << ", " << to_string(bench.mode());
+  EXPECT_TRUE(bench.reason() == reason || to_string(bench.cause()) == reason)
+      << bench.reason() << ", " << to_string(bench.cause());
   // v^2 / 2a = 0.5 m and the ramps of the jerk; the controller may lag behind its reference by a little.
   EXPECT_LT((bench.pose.position_world - begun).norm(), 0.65);
   EXPECT_GT(bench.hardest_braking, 0.8);
@@ -33,57 +34,62 @@ void expect_brakes_and_recovers(Bench& bench, bool& working, double earliest, do
   EXPECT_LT((bench.pose.position_world - stood).norm(), kStanding);
   working = true;
   bench.run(2.5);
-  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.mode());
+  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.cause());
 }
 
-TEST(Faults, DrivesToItsGoalWithoutAny) {
-  Bench bench;
+class Faults : public testing::TestWithParam<Arrangement> {};
+
+INSTANTIATE_TEST_SUITE_P(Both, Faults, testing::Values(Arrangement::one_process, Arrangement::split),
+                         name_of);
+
+TEST_P(Faults, DrivesToItsGoalWithoutAny) {
+  Bench bench{GetParam()};
   bench.planner.set_goal({{4.0, 1.0}, std::nullopt});
   bench.run(9.0);
   EXPECT_LT((bench.pose.position_world - Eigen::Vector2d{4.0, 1.0}).norm(), 0.05);
   EXPECT_EQ(bench.reason(), "arrived");
-  EXPECT_EQ(bench.mode(), TrackerMode::tracking);
+  EXPECT_EQ(bench.cause(), StopCause::none);
   EXPECT_EQ(bench.planner.counts().inputs_refused, 0u);
 }
 
-TEST(Faults, StalePose) {
-  Bench bench;
+TEST_P(Faults, StalePose) {
+  Bench bench{GetParam()};
   bench.drive();
   expect_brakes_and_recovers(bench, bench.send_poses, kStale - kTick, kStale + kReaction, "stale pose");
 }
 
-TEST(Faults, StaleScan) {
-  Bench bench;
+TEST_P(Faults, StaleScan) {
+  Bench bench{GetParam()};
   bench.drive();
   // The last scan may be up to 0.1 s old when they end.
   expect_brakes_and_recovers(bench, bench.send_scans, kStale - 0.1 - kTick, kStale + kReaction, "no scan");
 }
 
-TEST(Faults, StaleReportsOfObstacles) {
-  Bench bench;
+TEST_P(Faults, StaleReportsOfObstacles) {
+  Bench bench{GetParam()};
   bench.drive();
   expect_brakes_and_recovers(bench, bench.send_detections, kStale - 0.1 - kTick, kStale + kReaction,
                              "no report of obstacles");
 }
 
-TEST(Faults, SilentPlanner) {
+TEST(SplitFaults, SilentPlanner) {
   Bench bench;
   bench.drive();
   expect_brakes_and_recovers(bench, bench.planner_alive, bench.host.plan_silence - 0.1 - kTick,
                              bench.host.plan_silence + kReaction, "stale plan");
 }
 
-TEST(Faults, WhatIsNotReliedOnMayBeMissing) {
+TEST_P(Faults, WhatIsNotReliedOnMayBeMissing) {
   HostParameters parameters;
   parameters.relies_on_scan = false;
   parameters.relies_on_obstacles = false;
-  Bench bench{parameters};
+  Bench bench{GetParam(), parameters};
   bench.send_scans = bench.send_detections = false;
   bench.drive();
 }
 
-TEST(Faults, SinglePosesThatAreNotNumbersOrFarAwayAreIgnored) {
-  Bench bench;
+TEST_P(Faults, SinglePosesThatAreNotNumbersOrFarAwayAreIgnored) {
+  Bench bench{GetParam()};
   bench.drive();
   long tick = 0;
   bench.distort = [&](const Pose2& truth) {
@@ -95,11 +101,11 @@ TEST(Faults, SinglePosesThatAreNotNumbersOrFarAwayAreIgnored) {
   bench.run(2.0);
   EXPECT_GT(bench.speed(), 0.9);
   EXPECT_NEAR((bench.pose.position_world - from).norm(), 2.0, 0.1);
-  EXPECT_EQ(bench.mode(), TrackerMode::tracking);
+  EXPECT_EQ(bench.cause(), StopCause::none);
 }
 
-TEST(Faults, PosesThatAreAllNotNumbersAreNone) {
-  Bench bench;
+TEST_P(Faults, PosesThatAreAllNotNumbersAreNone) {
+  Bench bench{GetParam()};
   bench.drive();
   bench.distort = [](const Pose2&) { return Pose2{{NAN, 0.0}, 0.0}; };
   const double delay = bench.time_until_braking();
@@ -107,8 +113,8 @@ TEST(Faults, PosesThatAreAllNotNumbersAreNone) {
   EXPECT_LE(delay, kStale + kReaction);
 }
 
-TEST(Faults, AJumpIsAFaultUntilItPersistsThenARelocalisation) {
-  Bench bench;
+TEST_P(Faults, AJumpIsAFaultUntilItPersistsThenARelocalisation) {
+  Bench bench{GetParam()};
   bench.drive();
   const Eigen::Vector2d jump{0.0, 3.0};
   bench.distort = [&](const Pose2& truth) { return Pose2{truth.position_world + jump, truth.heading}; };
@@ -119,13 +125,13 @@ TEST(Faults, AJumpIsAFaultUntilItPersistsThenARelocalisation) {
   const double before = bench.pose.position_world.y();
   bench.run(6.0);
   EXPECT_EQ(bench.planner.counts().restarts, 2u);
-  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.mode());
+  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.cause());
   // The way to the goal leads down now; it is driven, not jumped.
   EXPECT_LT(bench.pose.position_world.y(), before - 0.5);
 }
 
-TEST(Faults, AJumpThatPassesLeavesNoTrace) {
-  Bench bench;
+TEST_P(Faults, AJumpThatPassesLeavesNoTrace) {
+  Bench bench{GetParam()};
   bench.drive();
   bench.distort = [](const Pose2& truth) {
     return Pose2{truth.position_world + Eigen::Vector2d{3.0, 0.0}, 0.0};
@@ -137,32 +143,30 @@ TEST(Faults, AJumpThatPassesLeavesNoTrace) {
   EXPECT_EQ(bench.planner.counts().restarts, 1u);
 }
 
-TEST(Faults, EmergencyStopBrakesAndHoldsUntilReleased) {
-  Bench bench;
+TEST_P(Faults, EmergencyStopBrakesAndHoldsUntilReleased) {
+  Bench bench{GetParam()};
   bench.drive();
   bench.hardest_braking = 0.0;
-  bench.tracker.set_emergency_stop(true);
-  bench.planner.set_emergency_stop(true);
+  bench.set_switches({true, false});
   EXPECT_LE(bench.time_until_braking(), kReaction);
   bench.run(3.0);
   EXPECT_EQ(bench.speed(), 0.0);
-  EXPECT_EQ(bench.mode(), TrackerMode::emergency_stop);
+  EXPECT_EQ(bench.cause(), StopCause::emergency_stop);
   EXPECT_EQ(bench.reason(), "emergency stop");
   EXPECT_GT(bench.hardest_braking, 0.8);
-  bench.tracker.set_emergency_stop(false);
-  bench.planner.set_emergency_stop(false);
+  bench.set_switches({});
   bench.run(2.0);
   EXPECT_GT(bench.speed(), 0.9);
 }
 
-TEST(Faults, PauseCancelAndANewGoal) {
-  Bench bench;
+TEST_P(Faults, PauseCancelAndANewGoal) {
+  Bench bench{GetParam()};
   bench.drive();
-  bench.planner.set_paused(true);
+  bench.set_switches({false, true});
   bench.run(2.0);
   EXPECT_LT(bench.speed(), kStanding);
   EXPECT_EQ(bench.reason(), "paused");
-  bench.planner.set_paused(false);
+  bench.set_switches({});
   bench.run(2.0);
   EXPECT_GT(bench.speed(), 0.9);
   bench.planner.cancel();
@@ -176,10 +180,10 @@ TEST(Faults, PauseCancelAndANewGoal) {
   EXPECT_LT(bench.velocity_world.x(), -0.9);
 }
 
-TEST(Faults, ClockJumpsBothWays) {
+TEST_P(Faults, ClockJumpsBothWays) {
   for (const double offset : {30.0, -30.0, -95.0}) {
     SCOPED_TRACE(offset);
-    Bench bench;
+    Bench bench{GetParam()};
     bench.drive();
     bench.clock_offset = offset;
     const Eigen::Vector2d at = bench.pose.position_world;
@@ -187,13 +191,12 @@ TEST(Faults, ClockJumpsBothWays) {
     bench.run(0.5);
     EXPECT_LT((bench.pose.position_world - at).norm(), 1.0);
     bench.run(4.5);
-    EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.mode());
-    EXPECT_EQ(bench.tracker.clock_jumps(), 1u);
-    EXPECT_EQ(bench.planner.clock_jumps(), 1u);
+    EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.cause());
+    for (const std::uint32_t jumps : bench.clock_jumps()) EXPECT_EQ(jumps, 1u);
   }
 }
 
-TEST(Faults, ARestartedPlannerWaitsForTheRobotToStandAndGoesOn) {
+TEST(SplitFaults, ARestartedPlannerWaitsForTheRobotToStandAndGoesOn) {
   Bench bench;
   bench.drive();
   bench.restart_planner();
@@ -206,17 +209,17 @@ TEST(Faults, ARestartedPlannerWaitsForTheRobotToStandAndGoesOn) {
     bench.tick();
     hardest = std::max(hardest, std::abs(bench.speed() - before));
   }
-  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.mode());
+  EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.cause());
   EXPECT_LT(hardest, 0.1);  // no jump: 2 m/s^2 over a control period
 }
 
-TEST(Faults, ARestartedTrackerTakesOverAtOnce) {
+TEST(SplitFaults, ARestartedTrackerTakesOverAtOnce) {
   Bench bench;
   bench.drive();
   bench.restart_tracker();
   bench.run(1.0);
   EXPECT_GT(bench.speed(), 0.9);
-  EXPECT_EQ(bench.mode(), TrackerMode::tracking);
+  EXPECT_EQ(bench.cause(), StopCause::none);
 }
 
 }  // namespace

@@ -10,12 +10,14 @@ struct HostParameters {
   bool relies_on_scan = true;        ///< stands without fresh scans
   bool relies_on_obstacles = true;   ///< stands without fresh reports of moving obstacles
   double plan_silence = 0.5;         ///< [s] without a word of the planner until the tracker brakes
+  double command_silence = 0.5;      ///< [s] without a word of what the wheels are told: they stand
   double largest_plan_error = 0.6;   ///< [m] farther from its plan the tracker stands and waits for a new one
   double jump_distance = 0.5;        ///< [m] beyond what the robot can drive: the pose has jumped
   double jump_heading = 0.5;         ///< [rad] likewise
   double jump_persistence = 0.5;     ///< [s] a jump that lasts is believed: the robot was relocalised
   double clock_error = 0.1;          ///< [s] by which a stamp may be ahead of the clock
   double clock_jump = 1.0;           ///< [s] between two steps: beyond, the clock has jumped
+  bool trusts_peers = false;         ///< peers are taken at their word, unchecked
   double largest_peer_radius = 2.0;  ///< [m] messages of larger peers are malformed
   double largest_peer_sigma = 1.0;   ///< [m] likewise of those who do not know where they are
   double largest_peer_speed = 10.0;  ///< [m/s] likewise of faster ones
@@ -30,6 +32,8 @@ struct HostParameters {
           "the robot stands without fresh reports of moving obstacles, empty ones included");
     visit("plan_silence", self.plan_silence, "s", Range{0.05, 10.0},
           "without a word of the planner for this long the tracker brakes");
+    visit("command_silence", self.command_silence, "s", Range{0.05, 10.0},
+          "without a word of what the wheels are told for this long they are taken to stand");
     visit("largest_plan_error", self.largest_plan_error, kMetresByWay, Range{0.05, 100.0},
           "farther from its plan the tracker stands and waits for a new one");
     visit("jump_distance", self.jump_distance, kMetresBySize, Range{0.01, 1000.0},
@@ -41,6 +45,9 @@ struct HostParameters {
           "stamps may be ahead of the clock by so much");
     visit("clock_jump", self.clock_jump, "s", Range{0.1, 60.0},
           "a longer step of the clock, or one backwards, is a jump");
+    visit(
+        "trusts_peers", self.trusts_peers,
+        "peers are taken at their word: neither their messages nor that they are where they say is checked");
     visit("largest_peer_radius", self.largest_peer_radius, "m", Range{0.01, 100.0},
           "messages of larger peers are malformed");
     visit("largest_peer_sigma", self.largest_peer_sigma, "m", Range{0.0, 100.0},

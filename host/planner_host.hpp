@@ -1,7 +1,8 @@
-// The planning half of a robot behind one door: it owns the RobotAgent, lets nothing to it that an honest
-// sensor, clock or peer would not say, makes it brake when what it relies on is missing, and starts it afresh
-// from where the robot is after a restart, a relocalisation or a jump of the clock. One thread. Frame: world
-// (the fleet's); times are the host's [s].
+// The planning half of a robot: it owns the RobotAgent, lets nothing to it that an honest sensor, clock or peer
+// would not say, makes it brake when what it relies on is missing, and starts it afresh from where the robot is
+// after a restart, a relocalisation or a jump of the clock. Where the robot is it is told by a Localiser; none
+// means that the robot is moved exactly as it plans. One thread. Frame: world (the fleet's); times are the
+// host's [s] and have passed a StepClock.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "host/localiser.hpp"
 #include "host/peer_witness.hpp"
-#include "host/pose_gate.hpp"
-#include "host/step_clock.hpp"
+#include "host/standing_detector.hpp"
+#include "host/watchdog.hpp"
 #include "spf/team/robot_agent.hpp"
 
 namespace spf::host {
@@ -55,8 +57,8 @@ struct PlannerCounts {
   std::uint32_t messages_malformed = 0;
   std::uint32_t messages_old = 0;
   std::uint32_t messages_crowded = 0;  ///< of more peers than a robot keeps in mind
-  std::uint32_t inputs_refused = 0;
-  std::uint32_t restarts = 0;  ///< of the agent, the first one among them
+  std::uint32_t inputs_refused = 0;    ///< observations and goals
+  std::uint32_t restarts = 0;          ///< of the agent, the first one among them
 };
 
 class PlannerHost {
@@ -69,61 +71,65 @@ class PlannerHost {
   /// The static map. The robot waits for one, unless it is told that there is none.
   void set_map(OccupancyMap map);
   void go_without_map() { needs_map_ = false; }
+  /// Starts at once, without waiting to see the robot stand: the caller knows that it stands at this pose, with
+  /// nothing unseen around it.
+  void start(const OccupancyMap& map, const Pose2& pose_world, double now);
 
-  PoseVerdict add_pose(const PoseMeasurement& pose, double now);
-  ObservationVerdict add_observation(SensedWorld sensed, double now);
-  MessageVerdict add_message(const TrajectoryMessage& message, double now);
+  /// What the Localiser said of a pose: until the agent has started, it is to be seen to stand.
+  void note_pose(const PoseMeasurement& pose, PoseVerdict verdict);
+  ObservationVerdict add_observation(const SensedWorld& sensed, double now, const Localiser* localiser);
+  MessageVerdict add_message(const HeardMessage& message, double now);
   /// False when it is refused: not finite, or beyond all robots.
   bool set_goal(const Goal& goal);
   void cancel();
-  void set_paused(bool paused) { paused_ = paused; }
-  void set_emergency_stop(bool stop) { emergency_stop_ = stop; }
+  void set_switches(const Switches& switches) { switches_ = switches; }
+  /// Every candidate of a plan is kept for display from the next start on (allocates).
+  void set_keep_candidates(bool keep) { keep_candidates_ = keep; }
   /// The host could not even read something.
   void count_malformed_message() { ++counts_.messages_malformed; }
   void count_refused_input() { ++counts_.inputs_refused; }
+  /// Everything that was known is forgotten, but for goal and map.
+  void meet_clock_jump();
 
   /// Call at the rate of the poses; plans when one is due, or at once when something is missing.
-  const PlannerOutput& step(double now);
+  const PlannerOutput& step(double now, const Localiser* localiser);
 
   [[nodiscard]] PlannerStatus status() const;
   [[nodiscard]] PlannerCounts counts() const;
   /// What is missing, pauses apart; empty when all is well.
   [[nodiscard]] std::string fault() const;
-  [[nodiscard]] std::uint32_t clock_jumps() const { return clock_.count(); }
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
   /// Null until it has started.
   [[nodiscard]] const RobotAgent* agent() const { return agent_ ? &*agent_ : nullptr; }
   [[nodiscard]] const AgentParameters& parameters() const { return agent_parameters_; }
 
  private:
-  void meet_clock_jump();
   void forget_agent();
-  void start_when_ready(double now);
-  [[nodiscard]] bool stands(double now) const;
-  [[nodiscard]] std::string hindrance(double now) const;
-  void plan(double now);
-  void doubt_peers(const Observation& observation);
+  void make_agent(const Pose2& pose_world, double now);
+  void start_when_ready(double now, const Localiser& localiser);
+  [[nodiscard]] ObservationVerdict judge(const SensedWorld& sensed, double now) const;
+  [[nodiscard]] StopCause stop_cause(double now, const Localiser* localiser) const;
+  void plan(double now, const Localiser* localiser);
+  void doubt_peers(const Observation& observation, const Pose2& pose_world);
   [[nodiscard]] bool well_formed(const TrajectoryMessage& message) const;
 
   int robot_id_;
   AgentParameters agent_parameters_;
   HostParameters host_;
-  PoseGate gate_;
-  StepClock clock_;
+  Watchdog watchdog_;
   PeerWitness witness_;
+  StandingDetector standing_;
   std::optional<OccupancyMap> map_;
   bool needs_map_ = true;
   std::optional<RobotAgent> agent_;
   std::optional<Goal> goal_;
-  bool paused_ = false;
-  bool emergency_stop_ = false;
+  Switches switches_;
+  bool keep_candidates_ = false;
 
-  AgentInput input_;                           // since the last step
-  std::vector<PoseMeasurement> recent_poses_;  // before the start, to see whether the robot stands
-  std::optional<double> first_pose_time_;      // [s] since it was forgotten
-  double last_scan_time_;
-  double last_detections_time_;
-  std::string hindrance_;  // why the agent is made to stand, empty when it is not
+  double last_scan_time_ = kNever;
+  double last_detections_time_ = kNever;
+  double vouched_time_ = kNever;  // [s] when the caller said that there is nothing unseen
+  StopCause stop_cause_ = StopCause::none;
   std::uint32_t sequence_;
   std::uint32_t agent_sequence_ = 0;
   PlannerCounts counts_;

@@ -1,5 +1,6 @@
 #include "host/tracker_host.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,32 +14,6 @@ namespace {
 constexpr double kSpeedSpare = 1.5;
 
 }  // namespace
-
-const char* to_string(TrackerMode mode) {
-  switch (mode) {
-    case TrackerMode::tracking:
-      return "tracking";
-    case TrackerMode::emergency_stop:
-      return "emergency stop";
-    case TrackerMode::paused:
-      return "paused";
-    case TrackerMode::clock_jump:
-      return "clock jump";
-    case TrackerMode::no_pose:
-      return "no pose";
-    case TrackerMode::stale_pose:
-      return "stale pose";
-    case TrackerMode::no_plan:
-      return "no plan";
-    case TrackerMode::stale_plan:
-      return "stale plan";
-    case TrackerMode::far_from_plan:
-      return "far from its plan";
-    case TrackerMode::failed:
-      return "no control";
-  }
-  return "?";
-}
 
 const char* to_string(PlanVerdict verdict) {
   switch (verdict) {
@@ -58,28 +33,18 @@ const char* to_string(PlanVerdict verdict) {
 
 TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostParameters& host)
     : robot_id_{robot_id},
-      agent_{validated(agent)},
-      host_{validated(host)},
-      kinematics_{agent_.robot},
-      tracker_{agent_.tracker, agent_.robot},
-      gate_{host_, agent_.robot},
-      clock_{host_.clock_jump} {}
+      robot_{validated(agent).robot},
+      clock_error_{validated(host).clock_error},
+      kinematics_{robot_},
+      controller_{agent.tracker, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
+      watchdog_{host, agent.team.stale_time} {}
 
-PoseVerdict TrackerHost::add_pose(const PoseMeasurement& pose, double now) {
-  if (clock_.jumped(now)) meet_clock_jump(now);
-  const PoseVerdict verdict = gate_.judge(pose, clock_.now());
-  if (!believed(verdict)) {
-    ++poses_refused_;
-    return verdict;
-  }
-  if (verdict == PoseVerdict::relocalised) tracker_.reset();
-  tracker_.observe(pose.time, pose.pose_world);
-  return verdict;
+void TrackerHost::note_pose(PoseVerdict verdict) {
+  if (verdict == PoseVerdict::relocalised) controller_.reset();
 }
 
 PlanVerdict TrackerHost::add_plan(const TrajectoryMessage& message, double now) {
-  if (clock_.jumped(now)) meet_clock_jump(now);
-  const PlanVerdict verdict = judge(message, clock_.now());
+  const PlanVerdict verdict = judge(message, now);
   if (verdict != PlanVerdict::accepted) {
     ++plans_refused_;
     return verdict;
@@ -92,8 +57,8 @@ PlanVerdict TrackerHost::add_plan(const TrajectoryMessage& message, double now) 
 PlanVerdict TrackerHost::judge(const TrajectoryMessage& message, double now) const {
   if (message.robot_id != robot_id_) return PlanVerdict::foreign;
   if (!std::isfinite(message.sent_time)) return PlanVerdict::malformed;
-  if (!drivable(message.trajectory, {kSpeedSpare * agent_.robot.max_speed})) return PlanVerdict::malformed;
-  const double latest = now + host_.clock_error;
+  if (!drivable(message.trajectory, {kSpeedSpare * robot_.max_speed})) return PlanVerdict::malformed;
+  const double latest = now + clock_error_;
   if (message.sent_time > latest || message.trajectory.start_time() > latest) return PlanVerdict::future;
   if (has_plan_ && message.sent_time <= plan_.sent_time) return PlanVerdict::late;
   return PlanVerdict::accepted;
@@ -103,49 +68,46 @@ double TrackerHost::plan_age(double now) const {
   return has_plan_ ? now - plan_.sent_time : std::numeric_limits<double>::infinity();
 }
 
-/// Nothing known can be dated any more, but the robot still moves as it was told.
-void TrackerHost::meet_clock_jump(double now) {
-  const Pose2 here = command_.estimate.pose_world;
-  const bool knew = command_.estimate.valid;
-  gate_.reset();
-  tracker_.reset();
-  if (knew) tracker_.observe(now, here);
+void TrackerHost::meet_clock_jump() {
+  controller_.reset();
   has_plan_ = false;
   after_jump_ = true;
   braking_.reset();
 }
 
-TrackerMode TrackerHost::mode_now(double now) const {
-  if (emergency_stop_) return TrackerMode::emergency_stop;
-  if (paused_) return TrackerMode::paused;
-  if (after_jump_ && (!gate_.last() || !has_plan_)) return TrackerMode::clock_jump;
-  if (!gate_.last()) return TrackerMode::no_pose;
-  if (gate_.age(now) > agent_.team.stale_time) return TrackerMode::stale_pose;
-  if (!has_plan_) return TrackerMode::no_plan;
-  if (plan_age(now) > host_.plan_silence) return TrackerMode::stale_plan;
-  const Eigen::Vector2d error = command_.estimate.pose_world.position_world - plan_.trajectory.position(now);
-  if (!(error.norm() <= host_.largest_plan_error)) return TrackerMode::far_from_plan;
-  return TrackerMode::tracking;
+StopCause TrackerHost::stop_cause(double now, const Localiser& localiser) const {
+  WatchFacts facts;
+  facts.emergency_stop = switches_.emergency_stop;
+  facts.paused = switches_.paused;
+  facts.clock_jumped = after_jump_ && (!localiser.has_pose() || !has_plan_);
+  facts.pose_age = localiser.pose_age(now);
+  facts.plan_age = plan_age(now);
+  if (has_plan_)
+    facts.plan_error = (command_.estimate.pose_world.position_world - plan_.trajectory.position(now)).norm();
+  return watchdog_.watch(facts);
 }
 
-const TrackerCommand& TrackerHost::step(double now) {
-  if (clock_.jumped(now)) meet_clock_jump(now);
-  now = clock_.now();
-  command_.estimate = tracker_.estimate(now);
-  command_.mode = mode_now(now);
-  if (command_.mode == TrackerMode::tracking) {
+const TrackerCommand& TrackerHost::step(double now, Localiser& localiser) {
+  localiser.advance_to(now);
+  const MotionState state = localiser.state();
+  command_.estimate = state.estimate;
+  command_.stop = stop_cause(now, localiser);
+  if (command_.stop == StopCause::none) {
     after_jump_ = false;
     braking_.reset();
-    follow(now);
+    follow(now, state);
   } else {
-    brake(now);
+    brake(now, state);
   }
+  localiser.applied(now, command_.wheel_speeds);
   return command_;
 }
 
-void TrackerHost::follow(double now) {
-  const TrackerOutput& output = tracker_.step(now, plan_.trajectory);
-  if (output.status != TrackerStatus::tracking) command_.mode = TrackerMode::failed;
+void TrackerHost::follow(double now, const MotionState& state) {
+  const TrackerOutput& output = controller_.step(now, state, plan_.trajectory);
+  WatchFacts facts;
+  facts.controller_failed = output.status != TrackerStatus::tracking;
+  command_.stop = watchdog_.watch(facts);
   command_.braking = false;
   command_.wheel_speeds = output.wheel_speeds;
   command_.twist_body = kinematics_.twist_body(output.wheel_speeds);
@@ -154,18 +116,18 @@ void TrackerHost::follow(double now) {
 
 /// Along a braking trajectory from where the robot is, as fast as it was told to go; then no motion at all,
 /// since what the observer believes about slip is not to move a robot that stands.
-void TrackerHost::brake(double now) {
+void TrackerHost::brake(double now, const MotionState& state) {
   if (!braking_) {
     const double heading = command_.estimate.pose_world.heading;
     const Eigen::Vector3d twist = kinematics_.twist_world(command_.wheel_speeds, heading);
     const FlatState head{command_.estimate.pose_world.position_world, twist.head<2>(),
                          Eigen::Vector2d::Zero()};
-    braking_ = braking_trajectory(head, {heading, twist.z()}, now, agent_.robot);
+    braking_ = braking_trajectory(head, {heading, twist.z()}, now, robot_);
   }
   const bool moving = command_.estimate.valid && !command_.wheel_speeds.isZero() &&
                       now < std::max(braking_->end_time(),
                                      braking_->heading().start_time() + braking_->heading().turn_duration());
-  const TrackerOutput& output = moving ? tracker_.step(now, *braking_) : tracker_.stop(now);
+  const TrackerOutput& output = moving ? controller_.step(now, state, *braking_) : controller_.stop();
   command_.braking = moving;
   command_.wheel_speeds = output.wheel_speeds;
   command_.twist_body = kinematics_.twist_body(output.wheel_speeds);

@@ -13,7 +13,7 @@ void AgentMeter::planned(int robot, const PlanResult& plan) {
 }
 
 void AgentMeter::stood(int robot, const AgentStatus& status, double duration) {
-  if (status.reason == StandReason::none || status.reason == StandReason::arrived) return;
+  if (status.reason == StopCause::none || status.reason == StopCause::arrived) return;
   robots_[static_cast<std::size_t>(robot)].stood[static_cast<std::size_t>(status.reason)] += duration;
 }
 

@@ -62,7 +62,7 @@ std::string reason_text(const AgentStatus& status) {
 
 Recorder::Recorder(const Scenario& scenario, const GridFrame& map_frame)
     : recording_{std::make_shared<Recording>()},
-      last_reason_(scenario.robots.size(), StandReason::none),
+      last_reason_(scenario.robots.size(), StopCause::none),
       last_revision_(scenario.robots.size(), 0),
       cells_(scenario.robots.size()) {
   recording_->scenario = scenario;
@@ -74,11 +74,11 @@ void Recorder::frame(const TrialFrame& view) {
   frame.time = view.time;
   for (std::size_t i = 0; i < view.robots->size(); ++i) {
     const RobotTruth& truth = (*view.robots)[i];
-    const RobotAgent& agent = (*view.agents)[i];
+    const RobotAgent& agent = (*view.hosts)[i].agent();
     RecordedRobot robot;
     robot.pose = truth.pose;
     robot.velocity_world = truth.velocity_world;
-    robot.estimate = agent.estimate();
+    robot.estimate = (*view.hosts)[i].localiser().belief();
     robot.wheel_speeds = (*view.wheel_speeds)[i];
     robot.wheel_commands = (*view.wheel_commands)[i];
     robot.status = agent.status();
@@ -138,11 +138,11 @@ void Recorder::arrived(double time, int robot, const Eigen::Vector2d& position_w
 
 void Recorder::note_status(double time, int robot, const AgentStatus& status,
                            const Eigen::Vector2d& position_world) {
-  StandReason& last = last_reason_[static_cast<std::size_t>(robot)];
+  StopCause& last = last_reason_[static_cast<std::size_t>(robot)];
   if (status.reason == last) return;
   last = status.reason;
-  if (status.reason == StandReason::arrived) return;  // by the truth: arrival()
-  const bool goes = status.reason == StandReason::none;
+  if (status.reason == StopCause::arrived) return;  // by the truth: arrival()
+  const bool goes = status.reason == StopCause::none;
   recording_->events.push_back({time, robot, goes ? RecordedEvent::Kind::go : RecordedEvent::Kind::stop,
                                 reason_text(status), status.culprit, position_world});
 }

@@ -29,7 +29,7 @@ class Recorder : public TrialListener {
   void note_cells(double time, int robot, const OccupancyMap& map);
 
   std::shared_ptr<Recording> recording_;
-  std::vector<StandReason> last_reason_;                  // by robot
+  std::vector<StopCause> last_reason_;                    // by robot
   std::vector<std::uint64_t> last_revision_;              // of the maps, by robot
   std::vector<std::unordered_set<std::uint64_t>> cells_;  // occupied, by robot
 };

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "sim/simulation.hpp"
+#include "spf/robot/robot_scale.hpp"
 
 namespace spf::sim {
 namespace {
@@ -67,6 +68,21 @@ AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters a
   agent.team.goal_tolerance =
       std::min(agent.team.goal_tolerance, 0.5 * scenario.simulation.trial.arrival_distance);
   return agent;
+}
+
+host::HostParameters host_parameters_for(const Scenario& scenario) {
+  constexpr double kSigmas = 10.0;  // of the difference of two poses: never in a trial's 10^5 poses
+  const SimulationParameters& simulation = scenario.simulation;
+  const PoseNoiseParameters& noise = simulation.pose_noise;
+  host::HostParameters host = scaled(host::HostParameters{}, RobotScale{scenario.robot});
+  const double spread = kSigmas * std::hypot(noise.position_sigma, noise.seam_sigma);
+  host.jump_distance = std::min(host.jump_distance + spread, 1000.0);
+  host.jump_heading = std::min(host.jump_heading + kSigmas * noise.heading_sigma, 6.3);
+  host.largest_plan_error = std::min(host.largest_plan_error + spread, 100.0);
+  host.relies_on_scan = false;
+  host.relies_on_obstacles = simulation.trial.tracking == TrackingMode::full;
+  host.trusts_peers = true;
+  return host;
 }
 
 }  // namespace spf::sim

@@ -22,13 +22,13 @@ struct Thought {
   std::optional<HeardMessage> told;
 };
 
-/// What stands between the world and one agent.
-struct HostedRobot {
-  AgentInput pose_input;                 // kept for its memory
-  AgentInput world_input;                // likewise
-  std::deque<Observation> observations;  // not yet given to the agent
-  Observation spare_observation;
-  Thought thought;             // of this tick
+/// What stands between the world and one robot.
+struct Desk {
+  PoseMeasurement pose;                 // of this tick
+  std::vector<HeardMessage> messages;   // likewise
+  std::deque<host::SensedWorld> seen;   // not yet given to the robot
+  host::SensedWorld spare;              // kept for its memory
+  Thought thought;                      // of this tick
   double world_seconds = 0.0;  // taking in the world since the last plan
   double pose_seconds = 0.0;   // taking in poses since the last control tick
 };
@@ -49,8 +49,8 @@ struct Simulation::Implementation {
   // Of one robot, at the same time as the others: they change nothing but what is its own.
   void think(std::size_t robot);
   void plan(std::size_t robot, double started);
-  void track(std::size_t robot);
-  void deliver_observations(std::size_t robot);
+  void control(std::size_t robot);
+  void deliver(std::size_t robot);
   /// What came of it, one robot after the other.
   void conclude(std::size_t robot);
   void place_ideally();
@@ -66,7 +66,7 @@ struct Simulation::Implementation {
 
   SimulationOptions options;
   World world;
-  std::vector<RobotAgent> agents;
+  std::vector<host::RobotHost> robots;
   OmniKinematics kinematics;
   std::vector<Eigen::Vector3d> wheel_speeds;  // [m/s] true; filled for listeners
   Radio radio;
@@ -74,7 +74,7 @@ struct Simulation::Implementation {
   std::unique_ptr<Recorder> recorder;
   std::vector<TrialListener*> listeners;  // the recorder among them
 
-  std::vector<HostedRobot> hosted;
+  std::vector<Desk> desks;
   std::size_t contacts_seen = 0;
   std::size_t hits_seen = 0;
   bool stopped_by_caller = false;
@@ -96,15 +96,18 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
     if (listener != nullptr) listeners.push_back(listener);
   const std::size_t count = scenario.robots.size();
-  const StateSource source = ideal() ? StateSource::as_planned : StateSource::measured;
+  const host::HostParameters hosting = host_parameters_for(scenario);
+  const host::Motion motion = ideal() ? host::Motion::as_planned : host::Motion::by_wheels;
+  robots.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const RobotTask& task = scenario.robots[i];
-    agents.emplace_back(static_cast<int>(i), parameters, map, task.start, 0.0, source);
-    agents.back().set_goal(task.goal_world, task.goal_heading);
-    agents.back().set_keep_candidates(options.record);
+    robots.emplace_back(static_cast<int>(i), parameters, hosting, motion);
+    robots.back().planner().set_keep_candidates(options.record);
+    robots.back().planner().set_goal({task.goal_world, task.goal_heading});
+    robots.back().start(map, task.start, 0.0);
   }
   wheel_speeds.assign(count, Eigen::Vector3d::Zero());
-  hosted.resize(count);
+  desks.resize(count);
   last_control_us.assign(count, 0.0);
 }
 
@@ -116,97 +119,88 @@ void Simulation::Implementation::begin() {
 void Simulation::Implementation::hear() {
   radio.deliver(now(), world.robot_grid(), world.positions(),
                 [this](int receiver, const HeardMessage& message) {
-                  hosted[static_cast<std::size_t>(receiver)].world_input.messages.push_back(message);
+                  desks[static_cast<std::size_t>(receiver)].messages.push_back(message);
                 });
 }
 
 void Simulation::Implementation::observe() {
-  for (std::size_t i = 0; i < agents.size(); ++i) {
+  for (std::size_t i = 0; i < desks.size(); ++i) {
     if (!world.robots()[i].active()) continue;
+    Desk& desk = desks[i];
     const int robot = static_cast<int>(i);
-    hosted[i].pose_input.poses.clear();
-    hosted[i].pose_input.poses.push_back(world.measure_pose(robot));
+    desk.pose = world.measure_pose(robot);
     if (!world.observation_due()) continue;
-    Observation observation = std::move(hosted[i].spare_observation);
-    world.observe(robot, observation);
-    hosted[i].observations.push_back(std::move(observation));
+    host::SensedWorld sensed = std::move(desk.spare);
+    sensed.has_detections = true;
+    world.observe(robot, sensed.observation);
+    desk.seen.push_back(std::move(sensed));
   }
 }
 
 void Simulation::Implementation::think() {
   const auto job = [this](std::size_t robot) {
-    hosted[robot].thought = {};
+    desks[robot].thought = {};
     if (world.robots()[robot].active()) think(robot);
-    hosted[robot].world_input.messages.clear();
+    desks[robot].messages.clear();
   };
   if (options.for_each) {
-    options.for_each(agents.size(), job);
+    options.for_each(robots.size(), job);
   } else {
-    for (std::size_t i = 0; i < agents.size(); ++i) job(i);
+    for (std::size_t i = 0; i < robots.size(); ++i) job(i);
   }
-  for (std::size_t i = 0; i < agents.size(); ++i)
+  for (std::size_t i = 0; i < robots.size(); ++i)
     if (world.robots()[i].active()) conclude(i);
 }
 
 /// The two halves of a robot's step, timed apart: what planning has to take in, and what control has.
 void Simulation::Implementation::think(std::size_t robot) {
-  RobotAgent& agent = agents[robot];
+  Desk& desk = desks[robot];
   double started = clock();
-  agent.receive(now(), hosted[robot].pose_input);
-  hosted[robot].pose_seconds += clock() - started;
+  robots[robot].add_pose(desk.pose, now());
+  desk.pose_seconds += clock() - started;
 
   started = clock();
-  deliver_observations(robot);
-  const bool plans = agent.plan_due(now());
-  if (plans)
-    plan(robot, started);
-  else
-    hosted[robot].world_seconds += clock() - started;
-  if (agent.control_due(now())) track(robot);
+  deliver(robot);
+  plan(robot, started);
+  if (robots[robot].control_due(now())) control(robot);
 }
 
 /// Hands over what has been heard, and what was seen at least the computing delay ago: a plan that takes so
 /// long is committed when it is ready, but knows no more than was known when it began.
-void Simulation::Implementation::deliver_observations(std::size_t robot) {
+void Simulation::Implementation::deliver(std::size_t robot) {
   constexpr double kTimeRounding = 1e-9;  // [s]
-  AgentInput& input = hosted[robot].world_input;
-  std::deque<Observation>& waiting = hosted[robot].observations;
+  Desk& desk = desks[robot];
+  for (const HeardMessage& message : desk.messages) robots[robot].add_message(message, now());
   const double seen_by = now() - world.scenario().simulation.trial.computing_delay + kTimeRounding;
-  bool delivered = false;
-  while (!waiting.empty() && waiting.front().time <= seen_by) {
-    input.observation = std::move(waiting.front());
-    waiting.pop_front();
-    agents[robot].receive(now(), input);
-    hosted[robot].spare_observation = std::move(*input.observation);
-    input.observation.reset();
-    input.messages.clear();
-    delivered = true;
+  while (!desk.seen.empty() && desk.seen.front().observation.time <= seen_by) {
+    robots[robot].add_observation(desk.seen.front(), now());
+    desk.spare = std::move(desk.seen.front());
+    desk.seen.pop_front();
   }
-  if (!delivered && !input.messages.empty()) agents[robot].receive(now(), input);
 }
 
 void Simulation::Implementation::plan(std::size_t robot, double started) {
-  Thought& thought = hosted[robot].thought;
-  const std::optional<TrajectoryMessage> told = agents[robot].plan(now());
-  thought.planned = true;
-  thought.plan_seconds = hosted[robot].world_seconds + clock() - started;
-  hosted[robot].world_seconds = 0.0;
-  if (told) thought.told = *told;
+  Desk& desk = desks[robot];
+  const host::PlannerOutput& output = robots[robot].plan(now());
+  desk.world_seconds += clock() - started;
+  if (!output.planned) return;
+  desk.thought.planned = true;
+  desk.thought.plan_seconds = std::exchange(desk.world_seconds, 0.0);
+  if (output.broadcast) desk.thought.told = *output.broadcast;
 }
 
-void Simulation::Implementation::track(std::size_t robot) {
-  Thought& thought = hosted[robot].thought;
+void Simulation::Implementation::control(std::size_t robot) {
+  Desk& desk = desks[robot];
   const double started = clock();
-  thought.wheel_speeds = agents[robot].track(now());
-  thought.controlled = true;
-  thought.control_seconds = hosted[robot].pose_seconds + clock() - started;
-  hosted[robot].pose_seconds = 0.0;
+  desk.thought.wheel_speeds = robots[robot].control(now()).wheel_speeds;
+  desk.thought.controlled = true;
+  desk.thought.control_seconds = std::exchange(desk.pose_seconds, 0.0) + clock() - started;
 }
 
 void Simulation::Implementation::conclude(std::size_t robot) {
   const int id = static_cast<int>(robot);
-  const RobotAgent& agent = agents[robot];
-  const Thought& thought = hosted[robot].thought;
+  const RobotAgent& agent = robots[robot].agent();
+  const Thought& thought = desks[robot].thought;
   if (thought.planned) {
     if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * thought.plan_seconds));
     meter.planned(id, agent.last_plan());
@@ -232,9 +226,9 @@ void Simulation::Implementation::end() {
 /// Every robot will be at its trajectory's point when the tick ends.
 void Simulation::Implementation::place_ideally() {
   const double to = world.next_time();
-  for (std::size_t i = 0; i < agents.size(); ++i) {
+  for (std::size_t i = 0; i < robots.size(); ++i) {
     if (!world.robots()[i].active()) continue;
-    const Trajectory& plan = agents[i].committed();
+    const Trajectory& plan = robots[i].agent().committed();
     const FlatState state = plan.state(to);
     world.place(static_cast<int>(i), {state.position_world, plan.heading().state(to).heading},
                 state.velocity_world);
@@ -255,17 +249,17 @@ void Simulation::Implementation::tell_events() {
 
 void Simulation::Implementation::tell_frame() {
   if (listeners.empty()) return;
-  const std::vector<RobotTruth>& robots = world.robots();
-  for (std::size_t i = 0; i < robots.size(); ++i) {
+  const std::vector<RobotTruth>& truth = world.robots();
+  for (std::size_t i = 0; i < truth.size(); ++i) {
     if (ideal()) {
-      const double yaw_rate = agents[i].committed().heading().state(now()).yaw_rate;
-      const Eigen::Vector3d twist{robots[i].velocity_world.x(), robots[i].velocity_world.y(), yaw_rate};
-      wheel_speeds[i] = kinematics.wheel_speeds_from_world(twist, robots[i].pose.heading);
+      const double yaw_rate = robots[i].agent().committed().heading().state(now()).yaw_rate;
+      const Eigen::Vector3d twist{truth[i].velocity_world.x(), truth[i].velocity_world.y(), yaw_rate};
+      wheel_speeds[i] = kinematics.wheel_speeds_from_world(twist, truth[i].pose.heading);
     } else {
       wheel_speeds[i] = world.plant(static_cast<int>(i)).wheel_speeds();
     }
   }
-  const TrialFrame frame{now(),         world.share(),     &robots,          &world.movers(), &agents,
+  const TrialFrame frame{now(),         world.share(),     &truth,           &world.movers(), &robots,
                          &wheel_speeds, &world.commands(), &last_control_us, &world.shapes()};
   for (TrialListener* listener : listeners) listener->frame(frame);
 }

@@ -1,4 +1,4 @@
-// Hosts one RobotAgent per robot in a scenario's ground truth and runs one trial to its end, in the order of
+// Runs one host::RobotHost per robot in a scenario's ground truth, one trial to its end, in the order of
 // docs/protocol.md. Within a tick every robot thinks with what it has sensed and heard before, so they may
 // do it at the same time; what they say and command takes effect afterwards, by number. Deterministic: the
 // result depends on scenario and parameters alone, never on clocks or threads.
@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 
+#include "host/host_parameters.hpp"
 #include "sim/scenario.hpp"
 #include "sim/trial_listener.hpp"
 #include "sim/trial_result.hpp"
@@ -53,5 +54,10 @@ class Simulation {
 
 /// The parameters an agent gets in this scenario: the robot's and the rules of the trial over the fleet's.
 [[nodiscard]] AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent);
+
+/// What a robot's host reckons with in this scenario. Its guards are up, and as wide as the scenario's own
+/// noise of poses asks for: trials study noise that would be a fault elsewhere. Robots of a trial are honest, so
+/// peers are taken at their word, as the experiments assume; observations always say what moves around.
+[[nodiscard]] host::HostParameters host_parameters_for(const Scenario& scenario);
 
 }  // namespace spf::sim

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "host/robot_host.hpp"
 #include "sim/contact.hpp"
 #include "sim/movers.hpp"
 #include "sim/robot_truth.hpp"
-#include "spf/team/robot_agent.hpp"
 
 namespace spf::sim {
 
@@ -17,7 +17,7 @@ struct TrialFrame {
   double share = 0.0;  ///< of the movers' step
   const std::vector<RobotTruth>* robots = nullptr;
   const std::vector<Mover>* movers = nullptr;
-  const std::vector<RobotAgent>* agents = nullptr;
+  const std::vector<host::RobotHost>* hosts = nullptr;
   const std::vector<Eigen::Vector3d>* wheel_speeds = nullptr;    ///< [m/s] true
   const std::vector<Eigen::Vector3d>* wheel_commands = nullptr;  ///< [m/s]
   const std::vector<double>* control_us = nullptr;  ///< [us] of the last control tick, 0 without a clock

@@ -52,7 +52,7 @@ struct RobotResult {
   std::int64_t evaluations = 0;
   std::int64_t manoeuvres = 0;
   double static_clearance = 0.0;              ///< [m] least, minus the radius; at most 3 m
-  std::array<double, kStandReasons> stood{};  ///< [s] by StandReason; `arrived` and `none` stay 0
+  std::array<double, kStopCauses> stood{};  ///< [s] by StopCause; `arrived` and `none` stay 0
 };
 
 struct TrialResult {

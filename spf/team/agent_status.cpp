@@ -2,28 +2,44 @@
 
 namespace spf {
 
-const char* to_string(StandReason reason) {
-  switch (reason) {
-    case StandReason::none:
+const char* to_string(StopCause cause) {
+  switch (cause) {
+    case StopCause::none:
       return "moving";
-    case StandReason::no_goal:
+    case StopCause::no_goal:
       return "no goal";
-    case StandReason::arrived:
+    case StopCause::arrived:
       return "arrived";
-    case StandReason::obstacle_ahead:
+    case StopCause::obstacle_ahead:
       return "waits for a moving obstacle";
-    case StandReason::peer_ahead:
+    case StopCause::peer_ahead:
       return "waits for a peer";
-    case StandReason::no_path:
+    case StopCause::no_path:
       return "no path to the goal";
-    case StandReason::planner_failed:
+    case StopCause::planner_failed:
       return "no safe plan";
-    case StandReason::stale_pose:
-      return "no pose";
-    case StandReason::stale_scan:
-      return "no observation";
-    case StandReason::paused:
+    case StopCause::emergency_stop:
+      return "emergency stop";
+    case StopCause::paused:
       return "paused";
+    case StopCause::clock_jump:
+      return "clock jump";
+    case StopCause::no_pose:
+      return "no pose";
+    case StopCause::stale_pose:
+      return "stale pose";
+    case StopCause::no_scan:
+      return "no scan";
+    case StopCause::no_obstacles:
+      return "no report of obstacles";
+    case StopCause::no_plan:
+      return "no plan";
+    case StopCause::stale_plan:
+      return "stale plan";
+    case StopCause::far_from_plan:
+      return "far from its plan";
+    case StopCause::control_failed:
+      return "no control";
   }
   return "?";
 }

@@ -11,7 +11,7 @@
 namespace spf {
 
 /// Why a robot stands still (or is about to); `none` while it moves as planned.
-enum class StandReason {
+enum class StopCause {
   none,
   no_goal,
   arrived,
@@ -19,22 +19,31 @@ enum class StandReason {
   peer_ahead,      ///< waits for a teammate (culprit = its number)
   no_path,         ///< the static map leaves no way to the goal
   planner_failed,  ///< no safe plan within the budget; stands and tries again
-  stale_pose,      ///< no pose measurement for too long
-  stale_scan,      ///< no observation for too long
-  paused,          ///< told to
+  // Found by its host's watchdog (host/watchdog.hpp).
+  emergency_stop,
+  paused,        ///< told to
+  clock_jump,    ///< nothing is known in the new time yet
+  no_pose,       ///< none yet
+  stale_pose,    ///< no pose for too long
+  no_scan,       ///< none for too long, or none yet
+  no_obstacles,  ///< likewise no report of moving obstacles
+  no_plan,       ///< the controller has none yet
+  stale_plan,    ///< no word of the planner for too long
+  far_from_plan,
+  control_failed,  ///< the controller had no answer
 };
-[[nodiscard]] const char* to_string(StandReason reason);
-inline constexpr std::size_t kStandReasons = static_cast<std::size_t>(StandReason::paused) + 1;
+[[nodiscard]] const char* to_string(StopCause cause);
+inline constexpr std::size_t kStopCauses = static_cast<std::size_t>(StopCause::control_failed) + 1;
 
-/// A reason and who is behind it.
+/// A cause and who is behind it.
 struct StandCause {
-  StandReason reason = StandReason::none;
+  StopCause reason = StopCause::none;
   int culprit = -1;  ///< id of the obstacle or peer, -1 = none
 };
 
 struct AgentStatus {
   PeerState state = PeerState::stopped;
-  StandReason reason = StandReason::no_goal;
+  StopCause reason = StopCause::no_goal;
   int culprit = -1;  ///< id of the obstacle or peer behind the reason, -1 = none
 };
 

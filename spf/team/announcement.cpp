@@ -34,7 +34,7 @@ void Announcement::update(double time, const Situation& situation) {
   if (situation.goal_world && (now.position_world - *situation.goal_world).norm() < goal_tolerance_ &&
       speed < kArrivedSpeed * robot_.max_speed) {
     status_.state = PeerState::arrived;
-    status_.reason = stands ? StandReason::arrived : StandReason::none;
+    status_.reason = stands ? StopCause::arrived : StopCause::none;
     return;
   }
   status_.reason = situation.stop;
@@ -43,7 +43,7 @@ void Announcement::update(double time, const Situation& situation) {
     return;
   }
   status_.state = PeerState::stopped;
-  if (situation.stop != StandReason::none) return;
+  if (situation.stop != StopCause::none) return;
   status_.reason = situation.cause.reason;
   status_.culprit = situation.cause.culprit;
 }

@@ -59,20 +59,20 @@ TEST(Announcement, SaysWhyTheRobotStands) {
   const Trajectory standing = Trajectory::standing({1.0, 0.0}, 0.0, 1.0);
   Situation situation{standing};
   situation.goal_world = Eigen::Vector2d{5.0, 0.0};
-  situation.cause = {StandReason::peer_ahead, 9};
+  situation.cause = {StopCause::peer_ahead, 9};
   announcement.update(1.0, situation);
   EXPECT_EQ(announcement.status().state, PeerState::stopped);
-  EXPECT_EQ(announcement.status().reason, StandReason::peer_ahead);
+  EXPECT_EQ(announcement.status().reason, StopCause::peer_ahead);
   EXPECT_EQ(announcement.status().culprit, 9);
-  situation.stop = StandReason::paused;  // goes before
+  situation.stop = StopCause::paused;  // goes before
   announcement.update(1.1, situation);
-  EXPECT_EQ(announcement.status().reason, StandReason::paused);
+  EXPECT_EQ(announcement.status().reason, StopCause::paused);
   EXPECT_EQ(announcement.status().culprit, -1);
-  situation.stop = StandReason::none;
+  situation.stop = StopCause::none;
   situation.goal_world = Eigen::Vector2d{1.02, 0.0};
   announcement.update(1.2, situation);
   EXPECT_EQ(announcement.status().state, PeerState::arrived);
-  EXPECT_EQ(announcement.status().reason, StandReason::arrived);
+  EXPECT_EQ(announcement.status().reason, StopCause::arrived);
 }
 
 TEST(Announcement, ARobotThatMeansToGoSoonStandsOnlyWhenItKeepsMeaningTo) {

@@ -6,15 +6,14 @@
 
 namespace spf {
 
-Beliefs::Beliefs(int robot_id, const AgentParameters& parameters, const OccupancyMap& map, double time)
+Beliefs::Beliefs(int robot_id, const AgentParameters& parameters, const OccupancyMap& map)
     : robot_id_{robot_id},
       priority_{parameters.team.priority},
       robot_radius_{parameters.robot.radius},
       stale_time_{parameters.team.stale_time},
       map_{map},
       obstacle_tracker_{parameters.obstacles},
-      peer_table_{robot_id, parameters.peers},
-      last_observation_time_{time} {}
+      peer_table_{robot_id, parameters.peers} {}
 
 bool Beliefs::timely(const Observation& observation, double now) const {
   return observation.time >= now - stale_time_ - kTimeTolerance && observation.time <= now + kClockError;
@@ -22,7 +21,6 @@ bool Beliefs::timely(const Observation& observation, double now) const {
 
 void Beliefs::observe(const Observation& observation, const std::optional<Pose2>& pose_world) {
   obstacle_tracker_.update(observation);
-  last_observation_time_ = std::max(last_observation_time_, observation.time);
   if (!observation.scan || !pose_world) return;
   mask_dynamic_returns(observation.time);
   map_.integrate(*observation.scan, *pose_world, masked_);

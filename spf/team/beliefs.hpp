@@ -20,7 +20,7 @@ namespace spf {
 class Beliefs {
  public:
   /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed).
-  Beliefs(int robot_id, const AgentParameters& parameters, const OccupancyMap& map, double time);
+  Beliefs(int robot_id, const AgentParameters& parameters, const OccupancyMap& map);
 
   void hear(const HeardMessage& message, double now) { peer_table_.receive(message, now); }
   /// Whether an observation tells about the present: neither too old to rely on nor ahead of time.
@@ -40,7 +40,6 @@ class Beliefs {
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
   [[nodiscard]] const std::vector<Peer>& peers() const { return peer_table_.last_peers(); }
-  [[nodiscard]] double last_observation_time() const { return last_observation_time_; }  ///< [s]
   [[nodiscard]] std::uint64_t message_count(MessageVerdict verdict) const {
     return peer_table_.count(verdict);
   }
@@ -58,7 +57,6 @@ class Beliefs {
   std::vector<ObstacleTrack> tracks_;
   std::vector<int> distrusted_;
   std::vector<IgnoredDisc> masked_;  // of the observation under way, kept for its memory
-  double last_observation_time_;     // [s]
 };
 
 }  // namespace spf

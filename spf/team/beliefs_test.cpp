@@ -26,7 +26,7 @@ class BeliefsTest : public ::testing::Test {
     }
     return beliefs.map().occupied_points().size();
   }
-  Beliefs beliefs{1, AgentParameters{}, empty_map(), 0.0};
+  Beliefs beliefs{1, AgentParameters{}, empty_map()};
 };
 
 TEST_F(BeliefsTest, WhatIsSeenWhereNobodyMovesIsStatic) {
@@ -74,7 +74,6 @@ TEST_F(BeliefsTest, WithoutAPoseAScanEntersNoMap) {
   const std::uint64_t revision = beliefs.map().revision();
   beliefs.observe(observation, std::nullopt);
   EXPECT_EQ(beliefs.map().revision(), revision);
-  EXPECT_EQ(beliefs.last_observation_time(), 0.1);
 }
 
 TEST_F(BeliefsTest, KnowsWhichObservationsTellAboutThePresent) {
@@ -93,7 +92,7 @@ TEST_F(BeliefsTest, KnowsWhichObservationsTellAboutThePresent) {
 TEST_F(BeliefsTest, TheSnapshotHoldsTheRobotsOwnRank) {
   AgentParameters parameters;
   parameters.team.priority = 4;
-  const Beliefs mine{6, parameters, empty_map(), 0.0};
+  const Beliefs mine{6, parameters, empty_map()};
   EXPECT_EQ(mine.snapshot(1.0).rank().priority, 4);
   EXPECT_EQ(mine.snapshot(1.0).rank().robot_id, 6);
 }

@@ -1,6 +1,5 @@
-// A host for tests of the agent: the robot is exactly where its plan says, poses come at 100 Hz, observations
-// at 10 Hz, messages as the test says. Truth (boxes, movers) is kept apart from what the agent is told.
-// Frame: world.
+// A host for tests of the agent: the robot is exactly where its plan says, observations come at 10 Hz, messages
+// as the test says. Truth (boxes, movers) is kept apart from what the agent is told. Frame: world.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@
 namespace spf {
 
 /// So that failed comparisons can be read.
-inline void PrintTo(StandReason reason, std::ostream* stream) {
+inline void PrintTo(StopCause reason, std::ostream* stream) {
   *stream << to_string(reason);
 }
 
@@ -86,6 +85,29 @@ inline Trajectory straight(const Eigen::Vector2d& from, const Eigen::Vector2d& v
   return trajectory;
 }
 
+/// What an agent is told in one tick.
+struct AgentInput {
+  StateEstimate state;  ///< of the robot, now
+  std::optional<Observation> observation;
+  std::vector<HeardMessage> messages;
+};
+
+struct AgentOutput {
+  bool planned = false;
+  std::optional<TrajectoryMessage> broadcast;
+};
+
+/// Lets an agent take in what it is told, and plan where due.
+inline AgentOutput step(RobotAgent& agent, double time, const AgentInput& input,
+                        StopCause stop = StopCause::none) {
+  for (const HeardMessage& message : input.messages) agent.hear(message, time);
+  const std::optional<Pose2> here =
+      input.state.valid ? std::optional{input.state.pose_world} : std::nullopt;
+  if (input.observation) agent.observe(*input.observation, here, time);
+  if (!agent.plan_due(time)) return {};
+  return {true, agent.plan(time, input.state, stop)};
+}
+
 class IdealHost {
  public:
   static constexpr double kTick = 0.01;  // [s]
@@ -97,9 +119,8 @@ class IdealHost {
   RobotAgent agent;
   std::vector<TrueBox> boxes;     // true static surroundings, for the clearance and the scan
   std::vector<TrueMover> movers;  // true moving obstacles, reported exactly but without velocity
-  bool send_poses = true;
-  bool send_observations = true;
   bool send_scans = false;
+  StopCause stop = StopCause::none;                     // as its watchdog says
   std::function<void(double, AgentInput&)> more_input;  // may add to what the agent is told
   std::vector<TrajectoryMessage> told;                  // by the agent
 
@@ -116,8 +137,9 @@ class IdealHost {
   [[nodiscard]] AgentInput input() {
     AgentInput input;
     const double now = time();
-    if (send_poses) input.poses.push_back({now, {place, agent.committed().heading().state(now).heading}});
-    if (send_observations && ticks_ % 10 == 0) {
+    input.state.valid = true;
+    input.state.pose_world = {place, agent.committed().heading().state(now).heading};
+    if (ticks_ % 10 == 0) {
       input.observation.emplace();
       input.observation->time = now;
       for (const TrueMover& mover : movers)
@@ -133,7 +155,7 @@ class IdealHost {
     ++ticks_;
     const double now = time();
     move_to(agent.committed().position(now));
-    const AgentOutput output = agent.step(now, input());
+    const AgentOutput output = step(agent, now, input(), stop);
     if (output.broadcast) told.push_back(*output.broadcast);
     if (output.planned) {
       highest_speed = std::max(highest_speed, agent.committed().max_speed());
@@ -154,7 +176,7 @@ class IdealHost {
     const double end = time() + seconds;
     while (time() < end) {
       tick();
-      if (agent.status().reason == StandReason::arrived) return true;
+      if (agent.status().reason == StopCause::arrived) return true;
     }
     return false;
   }

@@ -1,6 +1,6 @@
-// The whole robot behind one door: what it senses and hears goes in, wheel speeds and its broadcast come out.
-// The simulator and the ROS nodes are two hosts of it, so "simulated or real" is a choice of host and nothing
-// else.
+// What a robot decides: from what it sees and hears, where it is and whether it has to stop, to the trajectory
+// that it is committed to and what it tells its peers. It plans; who measures its pose, drives its wheels and
+// watches over both composes it with a localiser and a controller (host/robot_host.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "spf/localisation/observer.hpp"
 #include "spf/planning/planner.hpp"
 #include "spf/team/agent_parameters.hpp"
 #include "spf/team/agent_status.hpp"
@@ -20,32 +21,13 @@
 
 namespace spf {
 
-/// What arrived since the last step; empty members mean "nothing new".
-struct AgentInput {
-  std::vector<PoseMeasurement> poses;
-  std::optional<Observation> observation;
-  std::vector<HeardMessage> messages;
-};
-
-/// Where the agent takes its own position from. Not a parameter: the host knows how it moves the robot.
-enum class StateSource {
-  measured,    ///< from pose measurements, by its observer
-  as_planned,  ///< the host moves the robot exactly as planned: it is where its plan says, and needs no poses
-};
-
-struct AgentOutput {
-  bool planned = false;     ///< a plan was made in this step: see RobotAgent::last_plan()
-  bool controlled = false;  ///< `wheel_speeds` was renewed in this step
-  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] rim speeds, held until the next
-  std::optional<TrajectoryMessage> broadcast;
-};
-
+/// Times [s] must not go back. Frame: world.
 class RobotAgent {
  public:
-  /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed), `time`
-  /// [s] the present. Throws std::invalid_argument when parameters are out of range.
+  /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed). It stands
+  /// at `start` from `time` on. Throws std::invalid_argument when parameters are out of range.
   RobotAgent(int robot_id, const AgentParameters& parameters, const OccupancyMap& map, const Pose2& start,
-             double time, StateSource source = StateSource::measured);
+             double time);
   ~RobotAgent();
   RobotAgent(RobotAgent&&) noexcept;
   RobotAgent& operator=(RobotAgent&&) noexcept;
@@ -53,33 +35,31 @@ class RobotAgent {
   /// Throws std::invalid_argument when the goal is not finite.
   void set_goal(const Eigen::Vector2d& goal_world, std::optional<double> goal_heading = std::nullopt);
   void clear_goal();
-  void set_paused(bool paused);
   /// Keep every candidate in last_plan(), for display (allocates).
   void set_keep_candidates(bool keep);
   /// Peers (sorted) whose discs mask no scan returns, since they are not where they say: what is seen there
   /// is static. They are kept away from as before. Replaces the ones named before.
   void set_distrusted(std::vector<int> robot_ids);
 
-  /// The sequential form: receive, then plan and track where due. Call it at the rate of the pose
-  /// measurements or faster; plans and control ticks happen at their own rates (AgentParameters). Times must
-  /// not go back.
-  AgentOutput step(double time, const AgentInput& input);
+  /// A message of a peer, heard now.
+  void hear(const HeardMessage& message, double now);
+  /// What was seen, from where: without a pose its scan tells nothing. One that is too old to rely on, or ahead
+  /// of time, is ignored.
+  void observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now);
 
-  // The halves of step(), for hosts that time them or run them on threads of their own.
-  void receive(double time, const AgentInput& input);
-  [[nodiscard]] bool plan_due(double time) const;
-  [[nodiscard]] bool control_due(double time) const;
-  /// Plans and commits; returns the message to broadcast when there is one.
-  std::optional<TrajectoryMessage> plan(double time);
-  /// One control tick; returns the rim speeds of the wheels [m/s], to be held until the next.
-  Eigen::Vector3d track(double time);
+  [[nodiscard]] bool plan_due(double now) const;
+  /// Plans and commits, or brakes where there is a cause to stop that no plan can mend; returns the message to
+  /// broadcast when there is one. `state` is where the robot is now; without it the robot is exactly where its
+  /// trajectory says.
+  std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state,
+                                        StopCause stop = StopCause::none);
 
   [[nodiscard]] int robot_id() const;
   [[nodiscard]] const AgentParameters& parameters() const;
   [[nodiscard]] const PlanResult& last_plan() const;
   /// The trajectory under way (never empty: standing at the start before the first plan).
   [[nodiscard]] const Trajectory& committed() const;
-  [[nodiscard]] AgentEstimate estimate() const;
+  /// As of the last plan.
   [[nodiscard]] AgentStatus status() const;
   [[nodiscard]] const OccupancyMap& map() const;
   [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const;

@@ -1,4 +1,4 @@
-// The agent's halves allocate nothing once they have run for a few seconds among the same surroundings.
+// The agent allocates nothing once it has run for a few seconds among the same surroundings.
 #include <gtest/gtest.h>
 
 #include "spf/math/random_stream.hpp"
@@ -11,7 +11,6 @@ namespace {
 struct Allocations {
   long receive = 0;
   long plan = 0;
-  long track = 0;
 };
 
 class AllocationTest : public ::testing::TestWithParam<const char*> {};
@@ -37,7 +36,8 @@ TEST_P(AllocationTest, NoneAfterWarmUp) {
   for (int tick = 1; tick <= 9000; ++tick) {
     const double time = 0.01 * tick;
     AgentInput input;
-    input.poses.push_back({time, {agent.committed().position(time) + 0.01 * noise.normal2(), 0.0}});
+    input.state.valid = true;
+    input.state.pose_world = {agent.committed().position(time) + 0.01 * noise.normal2(), 0.0};
     if (tick % 10 == 0) {
       input.observation.emplace();
       input.observation->time = time;
@@ -57,11 +57,12 @@ TEST_P(AllocationTest, NoneAfterWarmUp) {
     // The warm-up goes each way once; a few seconds do not meet every kind of plan.
     const bool counts = legs >= 2;
     const AllocationGuard receiving;
-    agent.receive(time, input);
+    for (const HeardMessage& message : input.messages) agent.hear(message, time);
+    if (input.observation) agent.observe(*input.observation, input.state.pose_world, time);
     if (counts) allocations.receive += receiving.allocations();
     if (agent.plan_due(time)) {
       const AllocationGuard planning;
-      (void)agent.plan(time);
+      (void)agent.plan(time, input.state);
       if (counts && !new_goal) allocations.plan += planning.allocations();
       new_goal = false;
       const PlanStats& stats = agent.last_plan().stats;
@@ -72,17 +73,11 @@ TEST_P(AllocationTest, NoneAfterWarmUp) {
         new_goal = true;
       }
     }
-    if (agent.control_due(time)) {
-      const AllocationGuard tracking;
-      (void)agent.track(time);
-      if (counts) allocations.track += tracking.allocations();
-    }
   }
   EXPECT_GE(legs, 3);
   EXPECT_GT(risky_plans, 10);  // there was something to plan around
   EXPECT_EQ(allocations.receive, 0);
   EXPECT_EQ(allocations.plan, 0);
-  EXPECT_EQ(allocations.track, 0);
 }
 
 }  // namespace

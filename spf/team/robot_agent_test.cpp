@@ -66,7 +66,7 @@ TEST_P(RobotAgentTest, GivesWayToAnObstacleThatComesTowardsIt) {
 TEST_P(RobotAgentTest, StandsWithoutAGoal) {
   IdealHost host{parameters(), empty_map(), {1.0, 1.0}};
   host.run(1.0);
-  EXPECT_EQ(host.agent.status().reason, StandReason::no_goal);
+  EXPECT_EQ(host.agent.status().reason, StopCause::no_goal);
   EXPECT_EQ(host.agent.status().state, PeerState::stopped);
   EXPECT_EQ(host.place, (Eigen::Vector2d{1.0, 1.0}));
 }
@@ -79,7 +79,7 @@ TEST_P(RobotAgentTest, BrakesWhenItsGoalIsTakenAway) {
   host.agent.clear_goal();
   host.run(1.5);  // 1 s to stop, and jerk-limited ends
   EXPECT_EQ(host.speed(), 0.0);
-  EXPECT_EQ(host.agent.status().reason, StandReason::no_goal);
+  EXPECT_EQ(host.agent.status().reason, StopCause::no_goal);
   expect_limits(host);
 }
 
@@ -87,62 +87,18 @@ TEST_P(RobotAgentTest, PausesAndGoesOn) {
   IdealHost host{parameters(), empty_map(), {-4.0, 0.0}};
   host.agent.set_goal({4.0, 0.0});
   host.run(3.0);
-  host.agent.set_paused(true);
+  host.stop = StopCause::paused;
   host.run(0.2);
   EXPECT_EQ(host.agent.status().state, PeerState::braking);
   host.run(1.8);
   EXPECT_EQ(host.speed(), 0.0);
-  EXPECT_EQ(host.agent.status().reason, StandReason::paused);
+  EXPECT_EQ(host.agent.status().reason, StopCause::paused);
   const Eigen::Vector2d stopped = host.place;
   host.run(1.0);
   EXPECT_EQ(host.place, stopped);
-  host.agent.set_paused(false);
+  host.stop = StopCause::none;
   EXPECT_TRUE(host.arrives_within(12.0));
   expect_limits(host);
-}
-
-/// Runs until the committed plan slows the robot down; returns how long that took from now [s].
-double time_until_braking(IdealHost& host) {
-  const double start = host.time();
-  while (host.time() < start + 5.0) {
-    host.tick();
-    if (host.agent.status().state == PeerState::braking) break;
-  }
-  return host.time() - start;
-}
-
-TEST_P(RobotAgentTest, BrakesSoonAfterItsPoseFallsSilentAndGoesOnWhenItReturns) {
-  IdealHost host{parameters(), empty_map(), {-8.0, 0.0}};
-  host.agent.set_goal({8.0, 0.0});
-  host.run(3.0);
-  host.send_poses = false;
-  const double delay = time_until_braking(host);
-  const TeamParameters team;
-  EXPECT_GT(delay, team.stale_time - IdealHost::kTick);
-  EXPECT_LE(delay, team.stale_time + team.plan_period + 2.0 * IdealHost::kTick);
-  EXPECT_EQ(host.agent.status().reason, StandReason::stale_pose);
-  host.run(2.0);
-  EXPECT_EQ(host.speed(), 0.0);
-  EXPECT_EQ(host.agent.status().reason, StandReason::stale_pose);
-  host.send_poses = true;
-  EXPECT_TRUE(host.arrives_within(20.0));
-  expect_limits(host);
-}
-
-TEST_P(RobotAgentTest, BrakesSoonAfterItsObservationsFallSilentAndGoesOnWhenTheyReturn) {
-  IdealHost host{parameters(), empty_map(), {-8.0, 0.0}};
-  host.agent.set_goal({8.0, 0.0});
-  host.run(3.0);
-  host.send_observations = false;
-  const double delay = time_until_braking(host);
-  const TeamParameters team;
-  EXPECT_GT(delay, team.stale_time - 0.1 - IdealHost::kTick);  // the last one may be 0.1 s old
-  EXPECT_LE(delay, team.stale_time + team.plan_period + 2.0 * IdealHost::kTick);
-  host.run(2.0);
-  EXPECT_EQ(host.speed(), 0.0);
-  EXPECT_EQ(host.agent.status().reason, StandReason::stale_scan);
-  host.send_observations = true;
-  EXPECT_TRUE(host.arrives_within(20.0));
 }
 
 TEST_P(RobotAgentTest, SaysThatThereIsNoPathToAWalledInGoal) {
@@ -155,11 +111,11 @@ TEST_P(RobotAgentTest, SaysThatThereIsNoPathToAWalledInGoal) {
   host.agent.set_goal({4.0, 0.0});
   host.run(15.0);
   EXPECT_LT(host.speed(), 0.02);
-  EXPECT_EQ(host.agent.status().reason, StandReason::no_path);
+  EXPECT_EQ(host.agent.status().reason, StopCause::no_path);
   EXPECT_EQ(host.agent.status().culprit, -1);
   EXPECT_GT(host.box_clearance, 0.0);
   host.run(1.0);
-  EXPECT_EQ(host.agent.status().reason, StandReason::no_path);
+  EXPECT_EQ(host.agent.status().reason, StopCause::no_path);
 }
 
 TEST_P(RobotAgentTest, SaysThatThereIsNoPathToAGoalInsideABox) {
@@ -168,7 +124,7 @@ TEST_P(RobotAgentTest, SaysThatThereIsNoPathToAGoalInsideABox) {
   host.agent.set_goal({0.0, -0.2});
   host.run(12.0);
   EXPECT_LT(host.speed(), 0.02);
-  EXPECT_EQ(host.agent.status().reason, StandReason::no_path);
+  EXPECT_EQ(host.agent.status().reason, StopCause::no_path);
   EXPECT_LT(kBoxAhead.distance(host.place), 0.6);  // as near as its guide lets it
   EXPECT_GT(host.box_clearance, 0.0);
 }
@@ -183,7 +139,7 @@ TEST_P(RobotAgentTest, NamesTheObstacleThatIsParkedInTheOnlyGap) {
   for (int i = 0; i < 20; ++i) {  // it does not only happen to stand
     host.run(0.1);
     EXPECT_LT(host.speed(), 0.05);
-    EXPECT_EQ(host.agent.status().reason, StandReason::obstacle_ahead);
+    EXPECT_EQ(host.agent.status().reason, StopCause::obstacle_ahead);
     EXPECT_EQ(host.agent.status().culprit, 23);
   }
   EXPECT_GT(host.mover_clearance, 0.0);
@@ -207,7 +163,7 @@ TEST_P(RobotAgentTest, NamesThePeerThatIsParkedInTheOnlyGap) {
   for (int i = 0; i < 20; ++i) {
     host.run(0.1);
     EXPECT_LT(host.speed(), 0.05);
-    EXPECT_EQ(host.agent.status().reason, StandReason::peer_ahead);
+    EXPECT_EQ(host.agent.status().reason, StopCause::peer_ahead);
     EXPECT_EQ(host.agent.status().culprit, 9);
   }
   EXPECT_GT(host.place.norm(), 0.6);
@@ -233,7 +189,7 @@ TEST(RobotAgent, GoesOnDodgingAfterItHasArrived) {
     }
     EXPECT_GT(host.mover_clearance, 0.0);
     EXPECT_GT(farthest, 0.3);  // it did step aside
-    EXPECT_EQ(host.agent.status().reason, StandReason::arrived);
+    EXPECT_EQ(host.agent.status().reason, StopCause::arrived);
     EXPECT_LT(host.place.norm(), 0.05);
     EXPECT_LT(host.largest_jump, 1e-6);
   }
@@ -307,7 +263,7 @@ TEST(RobotAgent, OfThePapersMethodBrakesForAPeerOfLowerPriority) {
   host.run(12.0);
   EXPECT_GT(least, 0.6);
   EXPECT_LT(host.speed(), 0.05);
-  EXPECT_EQ(host.agent.status().reason, StandReason::peer_ahead);
+  EXPECT_EQ(host.agent.status().reason, StopCause::peer_ahead);
   EXPECT_EQ(host.agent.status().culprit, 7);
 }
 
@@ -373,7 +329,7 @@ TEST_P(RobotAgentMethodTest, GivesTheSameBitsForTheSameInputs) {
   RandomStream noise{9};
   AgentInput heard;  // by both agents
   host.more_input = [&](double, AgentInput& input) {
-    for (PoseMeasurement& pose : input.poses) pose.pose_world.position_world += 0.01 * noise.normal2();
+    input.state.pose_world.position_world += 0.01 * noise.normal2();
     if (input.observation)
       for (Detection& detection : input.observation->detections)
         detection.position_world += 0.02 * noise.normal2();
@@ -384,25 +340,51 @@ TEST_P(RobotAgentMethodTest, GivesTheSameBitsForTheSameInputs) {
   second.set_goal({3.0, 0.0});
   for (int i = 0; i < 600; ++i) {
     const AgentOutput first = host.tick();
-    const AgentOutput other = second.step(host.time(), heard);
-    ASSERT_EQ(first.wheel_speeds, other.wheel_speeds) << host.time();
+    const AgentOutput other = step(second, host.time(), heard);
+    ASSERT_EQ(first.broadcast.has_value(), other.broadcast.has_value()) << host.time();
     ASSERT_EQ(host.agent.committed().duration(), second.committed().duration());
     ASSERT_EQ(host.agent.committed().tail_position(), second.committed().tail_position());
   }
   EXPECT_GT((host.place - Eigen::Vector2d{-3.0, 0.0}).norm(), 1.0);
 }
 
-TEST(RobotAgent, MovedAsPlannedItNeedsNoPosesAndKnowsWhereItIs) {
-  for (const StateSource source : {StateSource::measured, StateSource::as_planned}) {
-    RobotAgent agent{1, AgentParameters{}, empty_map(), {{-3.0, 0.0}, 0.0}, 0.0, source};
-    agent.set_goal({3.0, 0.0});
-    for (int tick = 1; tick <= 1000; ++tick) {
-      const AgentOutput output = agent.step(0.01 * tick, {});
-      if (source != StateSource::as_planned || !output.broadcast) continue;
-      EXPECT_EQ(output.broadcast->position_sigma, 0.0);
-    }
-    const bool there = (agent.committed().position(10.0) - Eigen::Vector2d{3.0, 0.0}).norm() < 0.05;
-    EXPECT_EQ(there, source == StateSource::as_planned);
+TEST(RobotAgent, MovedAsPlannedItKnowsWhereItIs) {
+  RobotAgent agent{1, AgentParameters{}, empty_map(), {{-3.0, 0.0}, 0.0}, 0.0};
+  agent.set_goal({3.0, 0.0});
+  for (int tick = 1; tick <= 1000; ++tick) {
+    if (!agent.plan_due(0.01 * tick)) continue;
+    const std::optional<TrajectoryMessage> told = agent.plan(0.01 * tick, std::nullopt);
+    EXPECT_EQ(told.value_or(TrajectoryMessage{}).position_sigma, 0.0);
+  }
+  EXPECT_LT((agent.committed().position(10.0) - Eigen::Vector2d{3.0, 0.0}).norm(), 0.05);
+}
+
+TEST(RobotAgent, TellsHowFarItMayBeFromItsPlan) {
+  RobotAgent agent{1, AgentParameters{}, empty_map(), {{-3.0, 0.0}, 0.0}, 0.0};
+  agent.set_goal({3.0, 0.0});
+  StateEstimate state;
+  state.valid = true;
+  state.pose_world = {{-3.0, 0.0}, 0.0};
+  state.position_variance = 0.04;
+  const std::optional<TrajectoryMessage> told = agent.plan(0.0, state);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_NEAR(told->position_sigma, 0.2, 1e-12);
+}
+
+TEST(RobotAgent, BrakesForACauseThatNoPlanCanMendAndNamesIt) {
+  for (const StopCause cause : {StopCause::stale_pose, StopCause::no_scan, StopCause::emergency_stop}) {
+    IdealHost host{AgentParameters{}, empty_map(), {-8.0, 0.0}};
+    host.agent.set_goal({8.0, 0.0});
+    host.run(3.0);
+    ASSERT_GT(host.speed(), 0.9);
+    host.stop = cause;
+    host.run(0.2);
+    EXPECT_EQ(host.agent.status().state, PeerState::braking);
+    host.run(2.0);
+    EXPECT_EQ(host.speed(), 0.0);
+    EXPECT_EQ(host.agent.status().reason, cause);
+    host.stop = StopCause::none;
+    EXPECT_TRUE(host.arrives_within(20.0));
   }
 }
 
@@ -433,7 +415,7 @@ TEST(RobotAgent, BuildsThePlannerItIsGivenAndNoOther) {
   host.run(1.0);
   EXPECT_EQ(made, 1);
   EXPECT_NEAR(calls, 10, 1);
-  EXPECT_EQ(host.agent.status().reason, StandReason::planner_failed);
+  EXPECT_EQ(host.agent.status().reason, StopCause::planner_failed);
   EXPECT_EQ(host.agent.last_plan().outcome, PlanOutcome::unsafe);
 }
 

@@ -1,19 +1,10 @@
 #include "spf/tracking/tracker.hpp"
 
 namespace spf {
-namespace {
-
-/// Lag of the motors that estimator and controller reckon with [s].
-double lag_of(const TrackerParameters& parameters, const RobotParameters& robot) {
-  return parameters.compensate_lag ? robot.motor_lag : 0.0;
-}
-
-}  // namespace
-
 Tracker::Tracker(const TrackerParameters& parameters, const RobotParameters& robot)
     : kinematics_{robot},
-      estimator_{validated(parameters).observer, kinematics_, lag_of(parameters, robot)},
-      controller_{parameters, kinematics_, lag_of(parameters, robot)} {}
+      estimator_{validated(parameters).observer, kinematics_, reckoned_lag(parameters, robot)},
+      controller_{parameters, kinematics_, reckoned_lag(parameters, robot)} {}
 
 void Tracker::reset() {
   estimator_.reset();

@@ -3,6 +3,7 @@
 
 #include "spf/localisation/observer_parameters.hpp"
 #include "spf/math/parameters.hpp"
+#include "spf/robot/robot_parameters.hpp"
 #include "spf/tracking/mpc.hpp"
 #include "spf/tracking/reference_sampler.hpp"
 
@@ -26,5 +27,10 @@ struct TrackerParameters {
     visit.group("mpc", self.mpc);
   }
 };
+
+/// Lag of the motors that estimator and controller reckon with [s].
+[[nodiscard]] inline double reckoned_lag(const TrackerParameters& parameters, const RobotParameters& robot) {
+  return parameters.compensate_lag ? robot.motor_lag : 0.0;
+}
 
 }  // namespace spf

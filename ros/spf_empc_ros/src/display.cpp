@@ -68,9 +68,8 @@ class Markers {
   visualization_msgs::MarkerArray array_;
 };
 
-void add_robot(const spf::RobotAgent& agent, Markers& markers) {
+void add_robot(const spf::RobotAgent& agent, const spf::Pose2& here, Markers& markers) {
   const double radius = agent.parameters().robot.radius;
-  const spf::Pose2 here = agent.estimate().pose_world;
   Marker& body = markers.add("robot", 0, Marker::CYLINDER);
   body.pose = to_message(here);
   body.pose.position.z = 0.1;
@@ -142,10 +141,10 @@ nav_msgs::Path path_message(const spf::Trajectory& plan, double from, const Cloc
   return path;
 }
 
-visualization_msgs::MarkerArray marker_message(const spf::RobotAgent& agent, double now,
-                                               const ClockEdge& clock, const std::string& frame) {
+visualization_msgs::MarkerArray marker_message(const spf::RobotAgent& agent, const spf::Pose2& here,
+                                               double now, const ClockEdge& clock, const std::string& frame) {
   Markers markers{clock.time(now), frame};
-  add_robot(agent, markers);
+  add_robot(agent, here, markers);
   add_plan(agent, now, markers);
   add_tracks(agent, now, markers);
   return markers.take();

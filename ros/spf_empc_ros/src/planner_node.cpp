@@ -32,16 +32,16 @@ PlannerNode::PlannerNode(ros::NodeHandle node, const RobotConfig& config, const 
       host_{config.robot_id, config.agent, config.file.host, first_sequence(start)},
       diagnostics_{node_, config.robot_id, "planner"},
       switch_{node_, [this](bool paused, bool stop) {
-                host_.set_paused(paused);
-                host_.set_emergency_stop(stop);
+                host_.planner().set_switches({stop, paused});
               }} {
-  if (!config_.waits_for_map) host_.go_without_map();
+  if (!config_.waits_for_map) host_.planner().go_without_map();
   trajectory_ = node_.advertise<spf_empc_msgs::Trajectory>("trajectory", 10);
   broadcast_ = node_.advertise<spf_empc_msgs::Trajectory>("/swarm/trajectories", 50);
   status_ = node_.advertise<spf_empc_msgs::RobotStatus>("status", 10);
   path_ = node_.advertise<nav_msgs::Path>("path", 2);
   markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
   subscribers_ = {node_.subscribe("odom", 50, &PlannerNode::on_pose, this, kNoDelay),
+                  node_.subscribe("wheel_speeds", 20, &PlannerNode::on_wheels, this, kNoDelay),
                   node_.subscribe("observation", 10, &PlannerNode::on_observation, this, kNoDelay),
                   node_.subscribe("/swarm/trajectories", 200, &PlannerNode::on_peer, this, kNoDelay),
                   node_.subscribe("goal", 5, &PlannerNode::on_goal, this),
@@ -61,7 +61,7 @@ void PlannerNode::refuse(const char* what, const std::string& why) {
 void PlannerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
   const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
   if (!pose) {
-    host_.count_refused_input();
+    host_.localiser().count_refused_pose();
     return refuse("odom", pose.refusal);
   }
   const spf::host::PoseVerdict verdict =
@@ -69,13 +69,21 @@ void PlannerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
   if (!believed(verdict)) refuse("odom", to_string(verdict));
 }
 
+void PlannerNode::on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels) {
+  const Converted<Eigen::Vector3d> speeds = from_message(*wheels);
+  const bool usable = speeds && host_.add_command(clock_.seconds(wheels->header.stamp), *speeds, now());
+  if (usable) return;
+  host_.planner().count_refused_input();
+  refuse("wheel_speeds", speeds ? "not of the present, or out of range" : speeds.refusal);
+}
+
 void PlannerNode::on_observation(const spf_empc_msgs::Observation::ConstPtr& observation) {
-  Converted<spf::host::SensedWorld> sensed = from_message(*observation, clock_, config_.frame);
+  const Converted<spf::host::SensedWorld> sensed = from_message(*observation, clock_, config_.frame);
   if (!sensed) {
-    host_.count_refused_input();
+    host_.planner().count_refused_input();
     return refuse("observation", sensed.refusal);
   }
-  const spf::host::ObservationVerdict verdict = host_.add_observation(std::move(*sensed.value), now());
+  const spf::host::ObservationVerdict verdict = host_.add_observation(*sensed, now());
   if (verdict != spf::host::ObservationVerdict::accepted) refuse("observation", to_string(verdict));
 }
 
@@ -83,7 +91,7 @@ void PlannerNode::on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory)
   if (trajectory->robot_id == static_cast<std::uint32_t>(config_.robot_id)) return;
   const Converted<ToldTrajectory> told = from_message(*trajectory, clock_, config_.frame);
   if (!told) {
-    host_.count_malformed_message();
+    host_.planner().count_malformed_message();
     return refuse("/swarm/trajectories", told.refusal);
   }
   if (host_.add_message(told->message, now()) == spf::MessageVerdict::malformed)
@@ -95,10 +103,10 @@ void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
   if (header.frame_id.empty()) header.frame_id = config_.frame;
   const Converted<spf::Pose2> place = frames_.pose(header, goal->pose, config_.frame);
   if (!place) {
-    host_.count_refused_input();
+    host_.planner().count_refused_input();
     return refuse("goal", place.refusal);
   }
-  if (!host_.set_goal({place->position_world, place->heading})) refuse("goal", "beyond all robots");
+  if (!host_.planner().set_goal({place->position_world, place->heading})) refuse("goal", "beyond all robots");
 }
 
 void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
@@ -106,14 +114,14 @@ void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
   Converted<spf::OccupancyMap> known =
       from_message(*map, config_.frame, config_.file.host, config_.agent.occupancy);
   if (!known) {
-    host_.count_refused_input();
+    host_.planner().count_refused_input();
     return refuse("/map", known.refusal);
   }
-  host_.set_map(std::move(*known.value));
+  host_.planner().set_map(std::move(*known.value));
 }
 
 void PlannerNode::on_cancel(const std_msgs::Empty::ConstPtr&) {
-  host_.cancel();
+  host_.planner().cancel();
 }
 
 // ---- out
@@ -147,8 +155,8 @@ void PlannerNode::publish_plan(const spf::host::PlannerOutput& output) {
 }
 
 void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {
-  const spf::host::PlannerStatus status = host_.status();
-  const spf::host::PlannerCounts counts = host_.counts();
+  const spf::host::PlannerStatus status = host_.planner().status();
+  const spf::host::PlannerCounts counts = host_.planner().counts();
   spf_empc_msgs::RobotStatus message;
   message.header.stamp = now;
   message.header.frame_id = config_.frame;
@@ -156,43 +164,48 @@ void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {
   message.state = static_cast<std::uint8_t>(status.state);
   message.reason = status.reason;
   message.culprit = status.culprit;
-  message.has_goal = host_.goal().has_value();
-  if (host_.goal()) {
-    message.goal.x = host_.goal()->position_world.x();
-    message.goal.y = host_.goal()->position_world.y();
+  message.has_goal = host_.planner().goal().has_value();
+  if (host_.planner().goal()) {
+    message.goal.x = host_.planner().goal()->position_world.x();
+    message.goal.y = host_.planner().goal()->position_world.y();
   }
-  if (host_.agent() != nullptr) message.outcome = spf::to_string(host_.agent()->last_plan().outcome);
+  if (host_.planner().agent() != nullptr)
+    message.outcome = spf::to_string(host_.planner().agent()->last_plan().outcome);
   message.plan_ms = plan_ms;
   message.plans = counts.plans;
   message.messages_accepted = counts.messages_accepted;
   message.messages_malformed = counts.messages_malformed;
   message.messages_old = counts.messages_old;
-  message.inputs_refused = counts.inputs_refused;
+  message.inputs_refused = counts.inputs_refused + host_.localiser().poses_refused();
   message.clock_jumps = host_.clock_jumps();
   status_.publish(message);
 }
 
 void PlannerNode::publish_pictures(double now) {
-  if (host_.agent() == nullptr) return;
+  if (host_.planner().agent() == nullptr) return;
   if (path_.getNumSubscribers() > 0)
-    path_.publish(path_message(host_.agent()->committed(), now, clock_, config_.frame));
+    path_.publish(path_message(host_.planner().agent()->committed(), now, clock_, config_.frame));
   if (markers_.getNumSubscribers() > 0)
-    markers_.publish(marker_message(*host_.agent(), now, clock_, config_.frame));
+    markers_.publish(marker_message(*host_.planner().agent(), host_.localiser().belief().pose_world, now,
+                                    clock_, config_.frame));
 }
 
 void PlannerNode::report(const ros::Time& now) {
-  const spf::host::PlannerStatus status = host_.status();
+  const spf::host::PlannerStatus status = host_.planner().status();
   if (!diagnostics_.due(now, status.reason)) return;
   Health health = Health::ok;
   if (status.state == spf::PeerState::stopped) health = Health::standing;
-  if (!host_.fault().empty()) health = Health::missing;
-  if (status.state == spf::PeerState::arrived || !host_.goal())
-    health = host_.fault().empty() ? Health::ok : health;
-  Diagnostics::Values values{{"plans", std::to_string(host_.counts().plans)},
-                             {"inputs refused", std::to_string(host_.counts().inputs_refused)},
-                             {"messages malformed", std::to_string(host_.counts().messages_malformed)},
-                             {"messages of too many peers", std::to_string(host_.counts().messages_crowded)},
-                             {"clock jumps", std::to_string(host_.clock_jumps())}};
+  if (!host_.planner().fault().empty()) health = Health::missing;
+  if (status.state == spf::PeerState::arrived || !host_.planner().goal())
+    health = host_.planner().fault().empty() ? Health::ok : health;
+  Diagnostics::Values values{
+      {"plans", std::to_string(host_.planner().counts().plans)},
+      {"inputs refused", std::to_string(host_.planner().counts().inputs_refused)},
+      {"poses refused", std::to_string(host_.localiser().poses_refused())},
+      {"command age", age_text(host_.localiser().command_age(clock_.seconds(now)))},
+      {"messages malformed", std::to_string(host_.planner().counts().messages_malformed)},
+      {"messages of too many peers", std::to_string(host_.planner().counts().messages_crowded)},
+      {"clock jumps", std::to_string(host_.clock_jumps())}};
   if (status.culprit >= 0) values.emplace_back("culprit", std::to_string(status.culprit));
   if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
   diagnostics_.report(now, health, status.reason, values);

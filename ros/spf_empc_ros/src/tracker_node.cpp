@@ -20,6 +20,11 @@ geometry_msgs::Pose2D pose2d(double x, double y, double theta) {
   return pose;
 }
 
+/// What the tracker does, in one word or two.
+std::string mode_of(const spf::host::TrackerCommand& command) {
+  return command.stop == spf::StopCause::none ? "tracking" : to_string(command.stop);
+}
+
 }  // namespace
 
 TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const ros::Time& start)
@@ -30,8 +35,7 @@ TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const 
       diagnostics_{node_, config.robot_id, "tracker"},
       switch_{node_,
               [this](bool paused, bool stop) {
-                host_.set_paused(paused);
-                host_.set_emergency_stop(stop);
+                host_.tracker().set_switches({stop, paused});
               }},
       base_frame_{"robot" + std::to_string(config.robot_id) + "/base_link"} {
   cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
@@ -57,7 +61,7 @@ void TrackerNode::refuse(const char* what, const std::string& why) {
 void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
   const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
   if (!pose) {
-    host_.count_refused_pose();
+    host_.localiser().count_refused_pose();
     return refuse("odom", pose.refusal);
   }
   const spf::host::PoseVerdict verdict =
@@ -68,7 +72,7 @@ void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
 void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
   const Converted<ToldTrajectory> told = from_message(*trajectory, clock_, config_.frame);
   if (!told) {
-    host_.count_refused_plan();
+    host_.tracker().count_refused_plan();
     return refuse("trajectory", told.refusal);
   }
   const spf::host::PlanVerdict verdict = host_.add_plan(told->message, now());
@@ -78,9 +82,9 @@ void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory)
 
 void TrackerNode::step() {
   const ros::WallTime begun = ros::WallTime::now();
-  const spf::host::TrackerCommand& command = host_.step(now());
+  const ros::Time time = ros::Time::now();  // from which on the command counts
+  const spf::host::TrackerCommand& command = host_.step(clock_.seconds(time));
   const double control_us = 1e6 * (ros::WallTime::now() - begun).toSec();
-  const ros::Time time = ros::Time::now();
   publish_command(time, command);
   publish_estimate(time, command);
   publish_status(time, command, control_us);
@@ -93,11 +97,9 @@ void TrackerNode::publish_command(const ros::Time& now, const spf::host::Tracker
   twist.linear.y = command.twist_body.y();
   twist.angular.z = command.twist_body.z();
   cmd_vel_.publish(twist);
-  spf_empc_msgs::WheelSpeeds wheels;
+  spf_empc_msgs::WheelSpeeds wheels = to_message(command.wheel_speeds, host_.tracker().max_wheel_speed());
   wheels.header.stamp = now;
   wheels.header.frame_id = base_frame_;
-  wheels.speeds.assign(command.wheel_speeds.begin(), command.wheel_speeds.end());
-  wheels.limit = host_.max_wheel_speed();
   wheel_speeds_.publish(wheels);
 }
 
@@ -122,7 +124,7 @@ void TrackerNode::publish_status(const ros::Time& now, const spf::host::TrackerC
   message.header.stamp = now;
   message.header.frame_id = config_.frame;
   message.robot_id = static_cast<std::uint32_t>(config_.robot_id);
-  message.mode = to_string(command.mode);
+  message.mode = mode_of(command);
   const spf::Pose2& here = command.estimate.pose_world;
   const Eigen::Vector3d& push = command.estimate.disturbance_world;
   message.estimate = pose2d(here.position_world.x(), here.position_world.y(), here.heading);
@@ -131,26 +133,26 @@ void TrackerNode::publish_status(const ros::Time& now, const spf::host::TrackerC
   message.reference =
       pose2d(command.reference_pose.x(), command.reference_pose.y(), command.reference_pose.z());
   message.control_us = control_us;
-  const bool follows = command.mode == spf::host::TrackerMode::tracking && observed_;
+  const bool follows = command.stop == spf::StopCause::none && observed_;
   message.latency_ms = follows ? 1e3 * (clock_.seconds(now) - *observed_) : -1.0;
-  message.plans_refused = host_.plans_refused();
-  message.poses_refused = host_.poses_refused();
+  message.plans_refused = host_.tracker().plans_refused();
+  message.poses_refused = host_.localiser().poses_refused();
   status_.publish(message);
 }
 
 void TrackerNode::report(const ros::Time& now, const spf::host::TrackerCommand& command) {
-  const std::string mode = to_string(command.mode);
+  const std::string mode = mode_of(command);
   if (!diagnostics_.due(now, mode)) return;
-  using spf::host::TrackerMode;
+  using spf::StopCause;
   Health health = Health::missing;
-  if (command.mode == TrackerMode::tracking) health = Health::ok;
-  if (command.mode == TrackerMode::paused || command.mode == TrackerMode::far_from_plan)
+  if (command.stop == StopCause::none) health = Health::ok;
+  if (command.stop == StopCause::paused || command.stop == StopCause::far_from_plan)
     health = Health::standing;
   const double seconds = clock_.seconds(now);
-  Diagnostics::Values values{{"pose age", age_text(host_.pose_age(seconds))},
-                             {"plan age", age_text(host_.plan_age(seconds))},
-                             {"poses refused", std::to_string(host_.poses_refused())},
-                             {"plans refused", std::to_string(host_.plans_refused())},
+  Diagnostics::Values values{{"pose age", age_text(host_.localiser().pose_age(seconds))},
+                             {"plan age", age_text(host_.tracker().plan_age(seconds))},
+                             {"poses refused", std::to_string(host_.localiser().poses_refused())},
+                             {"plans refused", std::to_string(host_.tracker().plans_refused())},
                              {"clock jumps", std::to_string(host_.clock_jumps())}};
   if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
   diagnostics_.report(now, health, mode, values);

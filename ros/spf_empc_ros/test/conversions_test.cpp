@@ -240,22 +240,34 @@ TEST(Conversions, MapThereAndBackAndRefused) {
   EXPECT_EQ(from_message(grid, "map", {}, {}).refusal, "its frame is 'odom', the fleet's is 'map'");
 }
 
+TEST(Conversions, WheelSpeedsGoThereAndBackAndMustBeThree) {
+  const Eigen::Vector3d speeds{0.1, -1.0 / 3.0, 0.7};
+  spf_empc_msgs::WheelSpeeds message = to_message(speeds, 1.5);
+  EXPECT_EQ(message.limit, 1.5);
+  ASSERT_TRUE(from_message(message));
+  EXPECT_EQ(*from_message(message), speeds);
+  message.speeds[1] = std::nan("");
+  EXPECT_FALSE(from_message(message));
+  message.speeds.resize(2);
+  EXPECT_EQ(from_message(message).refusal, "speeds has 2 entries, not 3");
+}
+
 TEST(Display, ShowsPathRobotFieldsAndTracks) {
   spf::OccupancyMap map{spf::GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
   spf::RobotAgent agent{0, spf::AgentParameters{}, map, spf::Pose2{}, 1.0};
   agent.set_goal({5.0, 0.0});
-  spf::AgentInput input;
-  input.poses.push_back({1.0, spf::Pose2{}});
-  input.observation.emplace();
-  input.observation->time = 1.0;
-  input.observation->detections.resize(1);
-  input.observation->detections[0].position_world = {3.0, 2.0};
-  agent.step(1.0, input);
+  spf::Observation observation;
+  observation.time = 1.0;
+  observation.detections.resize(1);
+  observation.detections[0].position_world = {3.0, 2.0};
+  agent.observe(observation, spf::Pose2{}, 1.0);
+  agent.plan(1.0, std::nullopt);
   const nav_msgs::Path path = path_message(agent.committed(), 1.0, kClock, "map");
   ASSERT_GT(path.poses.size(), 20u);
   EXPECT_NEAR(path.poses.back().pose.position.x, agent.committed().tail_position().x(), 1e-9);
   std::vector<std::string> kinds;
-  for (const auto& marker : marker_message(agent, 1.0, kClock, "map").markers) kinds.push_back(marker.ns);
+  for (const auto& marker : marker_message(agent, spf::Pose2{}, 1.0, kClock, "map").markers)
+    kinds.push_back(marker.ns);
   for (const std::string kind : {"robot", "plan", "field", "track", "track_sigma"})
     EXPECT_NE(std::find(kinds.begin(), kinds.end(), kind), kinds.end()) << kind;
 }

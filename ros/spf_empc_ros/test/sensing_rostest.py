@@ -29,7 +29,7 @@ class Sensing(OneRobotTest):
         self.assertTrue(wait_until(lambda: robot.speed() > 0.9, 5.0), robot.status.reason)  # by itself
 
     def test_odometry(self):
-        self.check_stale("odom_on", "odom", "no pose")
+        self.check_stale("odom_on", "odom", "stale pose")
         self.assertIn(("robot0: tracker", "stale pose"), self.world.diagnostics)
 
     def test_scan(self):

@@ -10,6 +10,7 @@
 #include <spf_empc_msgs/Observation.h>
 #include <spf_empc_msgs/ObstacleTracks.h>
 #include <spf_empc_msgs/Trajectory.h>
+#include <spf_empc_msgs/WheelSpeeds.h>
 
 #include <optional>
 #include <string>
@@ -47,6 +48,10 @@ struct ToldTrajectory {
                                                    const std::string& frame);
 [[nodiscard]] Converted<ToldTrajectory> from_message(const spf_empc_msgs::Trajectory& message,
                                                      const ClockEdge& clock, const std::string& frame);
+
+// ---- what the wheels are told: rim speeds [m/s], wheel 1 first
+[[nodiscard]] spf_empc_msgs::WheelSpeeds to_message(const Eigen::Vector3d& wheel_speeds, double limit);
+[[nodiscard]] Converted<Eigen::Vector3d> from_message(const spf_empc_msgs::WheelSpeeds& message);
 
 // ---- what is sensed. Positions are moved by `fleet_from_message`, the place of the message's frame in the
 // fleet's.

@@ -15,7 +15,8 @@ namespace spf_empc_ros {
 [[nodiscard]] nav_msgs::Path path_message(const spf::Trajectory& plan, double from, const ClockEdge& clock,
                                           const std::string& frame);
 
-[[nodiscard]] visualization_msgs::MarkerArray marker_message(const spf::RobotAgent& agent, double now,
+[[nodiscard]] visualization_msgs::MarkerArray marker_message(const spf::RobotAgent& agent,
+                                                             const spf::Pose2& here, double now,
                                                              const ClockEdge& clock,
                                                              const std::string& frame);
 

@@ -1,5 +1,5 @@
-// PlannerHost on ROS: poses, observations, peers' trajectories and goals in; the robot's own trajectory, its
-// broadcast, status and pictures out. Topics: docs/ros.md.
+// host::PlannerProcess on ROS: poses, what the wheels are told, observations, peers' trajectories and goals
+// in; the robot's own trajectory, its broadcast, status and pictures out. Topics: docs/ros.md.
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
@@ -11,13 +11,14 @@
 #include <ros/timer.h>
 #include <spf_empc_msgs/Observation.h>
 #include <spf_empc_msgs/Trajectory.h>
+#include <spf_empc_msgs/WheelSpeeds.h>
 #include <std_msgs/Bool.h>
 #include <std_msgs/Empty.h>
 
 #include <string>
 #include <vector>
 
-#include "host/planner_host.hpp"
+#include "host/split_host.hpp"
 #include "spf_empc_ros/clock_edge.hpp"
 #include "spf_empc_ros/diagnostics.hpp"
 #include "spf_empc_ros/frames.hpp"
@@ -33,6 +34,7 @@ class PlannerNode {
 
  private:
   void on_pose(const nav_msgs::Odometry::ConstPtr& odometry);
+  void on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels);
   void on_observation(const spf_empc_msgs::Observation::ConstPtr& observation);
   void on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory);
   void on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal);
@@ -49,7 +51,7 @@ class PlannerNode {
   ros::NodeHandle node_;
   RobotConfig config_;
   ClockEdge clock_;
-  spf::host::PlannerHost host_;
+  spf::host::PlannerProcess host_;
   Frames frames_;
   Diagnostics diagnostics_;
   StopSwitch switch_;

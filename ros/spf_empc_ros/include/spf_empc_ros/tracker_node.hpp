@@ -1,5 +1,5 @@
-// TrackerHost on ROS: odometry and the planner's trajectory in, commands out, by a timer of its own. Topics:
-// docs/ros.md.
+// host::TrackerProcess on ROS: odometry and the planner's trajectory in, commands out, by a timer of its own.
+// Topics: docs/ros.md.
 #pragma once
 
 #include <nav_msgs/Odometry.h>
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "host/tracker_host.hpp"
+#include "host/split_host.hpp"
 #include "spf_empc_ros/clock_edge.hpp"
 #include "spf_empc_ros/diagnostics.hpp"
 #include "spf_empc_ros/frames.hpp"
@@ -46,7 +46,7 @@ class TrackerNode {
   ros::NodeHandle node_;
   RobotConfig config_;
   ClockEdge clock_;
-  spf::host::TrackerHost host_;
+  spf::host::TrackerProcess host_;
   Frames frames_;
   Diagnostics diagnostics_;
   StopSwitch switch_;

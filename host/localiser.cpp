@@ -1,0 +1,59 @@
+#include "host/localiser.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spf::host {
+Localiser::Localiser(const AgentParameters& agent, const HostParameters& host)
+    : gate_{validated(host), validated(agent).robot},
+      estimator_{agent.tracker.observer, OmniKinematics{agent.robot},
+                 reckoned_lag(agent.tracker, agent.robot)},
+      command_silence_{host.command_silence} {}
+
+PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
+  const PoseVerdict verdict = gate_.judge(pose, now);
+  if (!believed(verdict)) {
+    ++poses_refused_;
+    return verdict;
+  }
+  if (verdict == PoseVerdict::relocalised) {
+    const Eigen::Vector3d command = estimator_.state().command;
+    estimator_.reset();
+    estimator_.apply(pose.time, command);
+  }
+  advance_to(pose.time);
+  estimator_.observe(pose.time, pose.pose_world);
+  return verdict;
+}
+
+void Localiser::applied(double time, const Eigen::Vector3d& wheel_speeds) {
+  if (!std::isfinite(time)) return;
+  estimator_.apply(time, wheel_speeds);
+  command_time_ = std::max(command_time_, time);
+  standing_ = false;
+}
+
+void Localiser::advance_to(double now) {
+  if (!standing_ && now - command_time_ > command_silence_) {
+    estimator_.apply(command_time_ + command_silence_, Eigen::Vector3d::Zero());
+    standing_ = true;
+  }
+  estimator_.advance_to(now);
+}
+
+void Localiser::meet_clock_jump(double now) {
+  const MotionState before = estimator_.state();
+  gate_.reset();
+  estimator_.reset();
+  if (before.estimate.valid) estimator_.observe(now, before.estimate.pose_world);
+  estimator_.apply(now, before.command);
+  command_time_ = now;
+}
+
+AgentEstimate Localiser::belief() const {
+  const StateEstimate believed = estimator_.state().estimate;
+  return {believed.pose_world, believed.disturbance_world, std::sqrt(believed.position_variance),
+          believed.valid};
+}
+
+}  // namespace spf::host

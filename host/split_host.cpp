@@ -1,0 +1,45 @@
+#include "host/split_host.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spf::host {
+namespace {
+
+constexpr double kLongestWay = 0.5;  // [s] between the processes, and of their clocks
+
+}  // namespace
+
+PlannerProcess::PlannerProcess(int robot_id, const AgentParameters& agent, const HostParameters& host,
+                               std::uint32_t first_sequence)
+    : largest_wheel_speed_{2.0 * OmniKinematics{validated(agent).robot}.max_wheel_speed()},
+      clock_{validated(host).clock_jump},
+      localiser_{agent, host},
+      planner_{robot_id, agent, host, first_sequence} {}
+
+double PlannerProcess::tell_time(double now) {
+  if (clock_.jumped(now)) {
+    localiser_.meet_clock_jump(clock_.now());
+    planner_.meet_clock_jump();
+  }
+  return clock_.now();
+}
+
+bool PlannerProcess::add_command(double time, const Eigen::Vector3d& wheel_speeds, double now) {
+  now = tell_time(now);
+  const bool usable = std::abs(now - time) <= kLongestWay && wheel_speeds.allFinite() &&
+                      wheel_speeds.lpNorm<Eigen::Infinity>() <= largest_wheel_speed_;
+  // A stamp ahead of this process's clock must not carry the estimate there.
+  if (usable) localiser_.applied(std::min(time, now), wheel_speeds);
+  return usable;
+}
+
+double TrackerProcess::tell_time(double now) {
+  if (clock_.jumped(now)) {
+    localiser_.meet_clock_jump(clock_.now());
+    tracker_.meet_clock_jump();
+  }
+  return clock_.now();
+}
+
+}  // namespace spf::host
