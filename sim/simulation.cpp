@@ -12,25 +12,17 @@ namespace spf::sim {
 
 namespace {
 
-/// What a robot did in a tick.
-struct Thought {
-  bool planned = false;
-  bool controlled = false;
-  double plan_seconds = 0.0;                               // of the call, with what it had to take in
-  double control_seconds = 0.0;                            // likewise
-  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  // [m/s] commanded
-  std::optional<HeardMessage> told;
-};
-
 /// What stands between the world and one robot.
 struct Desk {
-  PoseMeasurement pose;                 // of this tick
-  std::vector<HeardMessage> messages;   // likewise
-  std::deque<host::SensedWorld> seen;   // not yet given to the robot
-  host::SensedWorld spare;              // kept for its memory
-  Thought thought;                      // of this tick
-  double world_seconds = 0.0;  // taking in the world since the last plan
-  double pose_seconds = 0.0;   // taking in poses since the last control tick
+  RobotInput input;                       // of this tick
+  std::deque<host::SensedWorld> waiting;  // not yet given to the robot
+  std::vector<host::SensedWorld> spare;   // kept for its memory
+  host::RobotOutput output;               // of this tick
+  std::optional<HeardMessage> told;       // likewise
+  double plan_seconds = 0.0;              // of the call, with what it had to take in
+  double control_seconds = 0.0;           // likewise
+  double world_seconds = 0.0;             // taking in the world since the last plan
+  double pose_seconds = 0.0;              // taking in poses since the last control tick
 };
 
 }  // namespace
@@ -119,7 +111,7 @@ void Simulation::Implementation::begin() {
 void Simulation::Implementation::hear() {
   radio.deliver(now(), world.robot_grid(), world.positions(),
                 [this](int receiver, const HeardMessage& message) {
-                  desks[static_cast<std::size_t>(receiver)].messages.push_back(message);
+                  desks[static_cast<std::size_t>(receiver)].input.messages.push_back(message);
                 });
 }
 
@@ -128,35 +120,44 @@ void Simulation::Implementation::observe() {
     if (!world.robots()[i].active()) continue;
     Desk& desk = desks[i];
     const int robot = static_cast<int>(i);
-    desk.pose = world.measure_pose(robot);
+    desk.input.pose = world.measure_pose(robot);
     if (!world.observation_due()) continue;
-    host::SensedWorld sensed = std::move(desk.spare);
+    host::SensedWorld sensed;
+    if (!desk.spare.empty()) {
+      sensed = std::move(desk.spare.back());
+      desk.spare.pop_back();
+    }
     sensed.has_detections = true;
     world.observe(robot, sensed.observation);
-    desk.seen.push_back(std::move(sensed));
+    desk.waiting.push_back(std::move(sensed));
   }
 }
 
 void Simulation::Implementation::think() {
   const auto job = [this](std::size_t robot) {
-    desks[robot].thought = {};
+    desks[robot].output = {};
+    desks[robot].told.reset();
     if (world.robots()[robot].active()) think(robot);
-    desks[robot].messages.clear();
   };
   if (options.for_each) {
     options.for_each(robots.size(), job);
   } else {
     for (std::size_t i = 0; i < robots.size(); ++i) job(i);
   }
-  for (std::size_t i = 0; i < robots.size(); ++i)
+  for (std::size_t i = 0; i < robots.size(); ++i) {
     if (world.robots()[i].active()) conclude(i);
+    RobotInput& input = desks[i].input;
+    input.messages.clear();
+    for (host::SensedWorld& seen : input.seen) desks[i].spare.push_back(std::move(seen));
+    input.seen.clear();
+  }
 }
 
 /// The two halves of a robot's step, timed apart: what planning has to take in, and what control has.
 void Simulation::Implementation::think(std::size_t robot) {
   Desk& desk = desks[robot];
   double started = clock();
-  robots[robot].add_pose(desk.pose, now());
+  robots[robot].add_pose(desk.input.pose, now());
   desk.pose_seconds += clock() - started;
 
   started = clock();
@@ -170,12 +171,12 @@ void Simulation::Implementation::think(std::size_t robot) {
 void Simulation::Implementation::deliver(std::size_t robot) {
   constexpr double kTimeRounding = 1e-9;  // [s]
   Desk& desk = desks[robot];
-  for (const HeardMessage& message : desk.messages) robots[robot].add_message(message, now());
+  for (const HeardMessage& message : desk.input.messages) robots[robot].add_message(message, now());
   const double seen_by = now() - world.scenario().simulation.trial.computing_delay + kTimeRounding;
-  while (!desk.seen.empty() && desk.seen.front().observation.time <= seen_by) {
-    robots[robot].add_observation(desk.seen.front(), now());
-    desk.spare = std::move(desk.seen.front());
-    desk.seen.pop_front();
+  while (!desk.waiting.empty() && desk.waiting.front().observation.time <= seen_by) {
+    desk.input.seen.push_back(std::move(desk.waiting.front()));
+    desk.waiting.pop_front();
+    robots[robot].add_observation(desk.input.seen.back(), now());
   }
 }
 
@@ -184,33 +185,34 @@ void Simulation::Implementation::plan(std::size_t robot, double started) {
   const host::PlannerOutput& output = robots[robot].plan(now());
   desk.world_seconds += clock() - started;
   if (!output.planned) return;
-  desk.thought.planned = true;
-  desk.thought.plan_seconds = std::exchange(desk.world_seconds, 0.0);
-  if (output.broadcast) desk.thought.told = *output.broadcast;
+  desk.output.planned = true;
+  desk.plan_seconds = std::exchange(desk.world_seconds, 0.0);
+  if (output.broadcast) desk.told = *output.broadcast;
 }
 
 void Simulation::Implementation::control(std::size_t robot) {
   Desk& desk = desks[robot];
   const double started = clock();
-  desk.thought.wheel_speeds = robots[robot].control(now()).wheel_speeds;
-  desk.thought.controlled = true;
-  desk.thought.control_seconds = std::exchange(desk.pose_seconds, 0.0) + clock() - started;
+  desk.output.wheel_speeds = robots[robot].control(now()).wheel_speeds;
+  desk.output.controlled = true;
+  desk.control_seconds = std::exchange(desk.pose_seconds, 0.0) + clock() - started;
 }
 
 void Simulation::Implementation::conclude(std::size_t robot) {
   const int id = static_cast<int>(robot);
   const RobotAgent& agent = robots[robot].agent();
-  const Thought& thought = desks[robot].thought;
-  if (thought.planned) {
-    if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * thought.plan_seconds));
+  const Desk& desk = desks[robot];
+  for (TrialListener* listener : listeners) listener->thought(now(), id, desk.input, desk.output);
+  if (desk.output.planned) {
+    if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * desk.plan_seconds));
     meter.planned(id, agent.last_plan());
-    if (thought.told) radio.send(now(), *thought.told, world.positions()[robot]);
-    for (TrialListener* listener : listeners) listener->planned(now(), agent, 1e3 * thought.plan_seconds);
+    if (desk.told) radio.send(now(), *desk.told, world.positions()[robot]);
+    for (TrialListener* listener : listeners) listener->planned(now(), agent, 1e3 * desk.plan_seconds);
   }
-  if (thought.controlled) {
-    world.command(id, thought.wheel_speeds);
+  if (desk.output.controlled) {
+    world.command(id, desk.output.wheel_speeds);
     if (options.clock) {
-      last_control_us[robot] = 1e6 * thought.control_seconds;
+      last_control_us[robot] = 1e6 * desk.control_seconds;
       control_us.push_back(static_cast<float>(last_control_us[robot]));
     }
   }

@@ -24,6 +24,13 @@ struct TrialFrame {
   const StaticShapes* shapes = nullptr;
 };
 
+/// What a robot was given in one tick before it planned and controlled, in this order.
+struct RobotInput {
+  PoseMeasurement pose;
+  std::vector<HeardMessage> messages;
+  std::vector<host::SensedWorld> seen;
+};
+
 /// All calls come from the thread that runs the trial, in the order of time.
 class TrialListener {
  public:
@@ -31,6 +38,8 @@ class TrialListener {
 
   /// Every 0.1 s.
   virtual void frame(const TrialFrame&) {}
+  /// At every pose: what a robot was given, and what it did.
+  virtual void thought(double /*time*/, int /*robot*/, const RobotInput&, const host::RobotOutput&) {}
   /// A robot has planned, which took `plan_ms` [ms] (0 without a clock); what came of it is the agent's
   /// last_plan().
   virtual void planned(double /*time*/, const RobotAgent&, double /*plan_ms*/) {}
