@@ -63,7 +63,6 @@ void tell_hosts(fuzz::Bytes bytes) {
   planner.planner().set_goal({{3.0, 0.0}, std::nullopt});
   for (int i = 0; i < 50; ++i) {
     const double now = 10.0 + 0.02 * i;
-    perception.add_pose({now, Pose2{}}, now);
     planner.add_pose({now, Pose2{}}, now);
     if (i >= 30 && i % 5 == 0) {
       const Observation observation = observation_of(bytes, now);

@@ -431,24 +431,6 @@ TEST(PerceptionHost, NamesWhatItRefuses) {
   EXPECT_EQ(host.refused(), 7u);
 }
 
-TEST(PerceptionHost, KeepsAMapAndTracks) {
-  PerceptionHost host{AgentParameters{}, HostParameters{}};
-  for (int i = 0; i < 10; ++i) {
-    const double now = 10.0 + 0.1 * i;
-    host.add_pose(at(now, 0.0), now);
-    ASSERT_TRUE(host.add_scan(now, sweep(360, 2.0), Pose2{}, now));
-    Detection detection;
-    detection.position_world = {3.0 + 0.05 * i, 1.0};
-    ASSERT_TRUE(host.add_detections(now, {detection}, now));
-  }
-  ASSERT_NE(host.map(), nullptr);
-  EXPECT_LT(host.map()->distance({2.0, 0.0}), 0.1);
-  EXPECT_GT(host.map()->distance({0.0, 0.0}), 1.8);
-  ASSERT_EQ(host.tracker().tracks().size(), 1u);
-  EXPECT_NEAR(host.tracker().tracks()[0].state.velocity_world.x(), 0.5, 0.1);
-  EXPECT_GT(host.tracker().tracks()[0].position_variance, 0.0);
-}
-
 TEST(PlannerHost, WaitsForTheMapUnlessThereIsNone) {
   HostParameters parameters;
   PlannerProcess process{0, AgentParameters{}, parameters};

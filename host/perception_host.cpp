@@ -3,42 +3,23 @@
 #include <cmath>
 
 #include "host/scan_check.hpp"
-#include "host/sensed_map.hpp"
 
 namespace spf::host {
-namespace {
-
-constexpr double kExplained = 0.5;  // [radii of the robot] beyond a tracked disc: returns there are its own
-
-}  // namespace
 
 PerceptionHost::PerceptionHost(const AgentParameters& agent, const HostParameters& host)
-    : agent_{validated(agent)},
-      host_{validated(host)},
-      gate_{host_, agent_.robot},
-      clock_{host_.clock_jump},
-      tracker_{agent_.obstacles},
-      scan_time_{kNever},
-      detections_time_{kNever} {}
+    : stale_time_{validated(agent).team.stale_time},
+      clock_error_{validated(host).clock_error},
+      clock_{host.clock_jump} {}
 
 void PerceptionHost::meet_clock_jump() {
-  gate_.reset();
-  tracker_ = ObstacleTracker{agent_.obstacles};
   scan_time_ = kNever;
   detections_time_ = kNever;
 }
 
-PoseVerdict PerceptionHost::add_pose(const PoseMeasurement& pose, double now) {
-  if (clock_.jumped(now)) meet_clock_jump();
-  const PoseVerdict verdict = gate_.judge(pose, clock_.now());
-  if (!believed(verdict)) ++refused_;
-  return verdict;
-}
-
 ObservationVerdict PerceptionHost::judge(double time, double last, double now) const {
   if (!std::isfinite(time)) return ObservationVerdict::malformed;
-  if (time > now + host_.clock_error) return ObservationVerdict::future;
-  if (time <= last || now - time > agent_.team.stale_time) return ObservationVerdict::late;
+  if (time > now + clock_error_) return ObservationVerdict::future;
+  if (time <= last || now - time > stale_time_) return ObservationVerdict::late;
   return ObservationVerdict::accepted;
 }
 
@@ -58,15 +39,6 @@ std::optional<SensedWorld> PerceptionHost::add_scan(double time, const RangeScan
   SensedWorld sensed;
   sensed.observation.time = time;
   sensed.observation.scan = seen_from_centre(scan, sensor_in_body);
-  if (gate_.last()) {
-    const Pose2& here = gate_.last()->pose_world;
-    if (!map_) map_ = sensed_map(here.position_world, host_, agent_.occupancy);
-    std::vector<IgnoredDisc> explained;
-    for (const ObstacleTrack& track : tracker_.tracks())
-      explained.push_back({track.state.position_world + (time - track.time) * track.state.velocity_world,
-                           track.state.radius + kExplained * agent_.robot.radius});
-    map_->integrate(*sensed.observation.scan, here, explained);
-  }
   return sensed;
 }
 
@@ -80,7 +52,6 @@ std::optional<SensedWorld> PerceptionHost::add_detections(double time, const std
   sensed.observation.time = time;
   sensed.observation.detections = seen;
   sensed.has_detections = true;
-  tracker_.update(sensed.observation);
   return sensed;
 }
 

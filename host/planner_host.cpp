@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "host/plan_check.hpp"
+#include "host/robot_map.hpp"
 #include "host/scan_check.hpp"
-#include "host/sensed_map.hpp"
 #include "spf/team/schedule.hpp"
 
 namespace spf::host {

@@ -1,8 +1,8 @@
-// The planning half of a robot: it owns the RobotAgent, lets nothing to it that an honest sensor, clock or peer
-// would not say, makes it brake when what it relies on is missing, and starts it afresh from where the robot is
-// after a restart, a relocalisation or a jump of the clock. Where the robot is it is told by a Localiser; none
-// means that the robot is moved exactly as it plans. One thread. Frame: world (the fleet's); times are the
-// host's [s] and have passed a StepClock.
+// The planning half of a robot: it owns the RobotAgent, lets nothing to it that an honest sensor, clock or
+// peer would not say, makes it brake when what it relies on is missing, and starts it afresh from where the
+// robot is after a restart, a relocalisation or a jump of the clock. Where the robot is it is told by a
+// Localiser; none means that the robot is moved exactly as it plans. One thread. Frame: world (the fleet's);
+// times are the host's [s] and have passed a StepClock.
 #pragma once
 
 #include <cstdint>
@@ -71,8 +71,8 @@ class PlannerHost {
   /// The static map. The robot waits for one, unless it is told that there is none.
   void set_map(OccupancyMap map);
   void go_without_map() { needs_map_ = false; }
-  /// Starts at once, without waiting to see the robot stand: the caller knows that it stands at this pose, with
-  /// nothing unseen around it.
+  /// Starts at once, without waiting to see the robot stand: the caller knows that it stands at this pose,
+  /// with nothing unseen around it.
   void start(const OccupancyMap& map, const Pose2& pose_world, double now);
 
   /// What the Localiser said of a pose: until the agent has started, it is to be seen to stand.
@@ -101,6 +101,8 @@ class PlannerHost {
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
   /// Null until it has started.
   [[nodiscard]] const RobotAgent* agent() const { return agent_ ? &*agent_ : nullptr; }
+  /// The map that is planned with; until it has started the given one, if any.
+  [[nodiscard]] const OccupancyMap* map() const { return agent_ ? &agent_->map() : map_ ? &*map_ : nullptr; }
   [[nodiscard]] const AgentParameters& parameters() const { return agent_parameters_; }
 
  private:

@@ -51,7 +51,7 @@ struct RobotResult {
   std::int64_t inner_iterations = 0;
   std::int64_t evaluations = 0;
   std::int64_t manoeuvres = 0;
-  double static_clearance = 0.0;              ///< [m] least, minus the radius; at most 3 m
+  double static_clearance = 0.0;            ///< [m] least, minus the radius; at most 3 m
   std::array<double, kStopCauses> stood{};  ///< [s] by StopCause; `arrived` and `none` stay 0
 };
 

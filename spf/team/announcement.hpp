@@ -15,8 +15,8 @@ struct Situation {
   const Trajectory& committed;
   bool braking = false;                            ///< it is a braking one
   std::optional<Eigen::Vector2d> goal_world = {};  ///< [m]
-  StopCause stop = StopCause::none;            ///< reason to stop that no plan can mend
-  StandCause cause{StopCause::planner_failed};   ///< why it would stand without such a reason
+  StopCause stop = StopCause::none;                ///< reason to stop that no plan can mend
+  StandCause cause{StopCause::planner_failed};     ///< why it would stand without such a reason
 };
 
 class Announcement {

@@ -1,5 +1,5 @@
-// A host for tests of the agent: the robot is exactly where its plan says, observations come at 10 Hz, messages
-// as the test says. Truth (boxes, movers) is kept apart from what the agent is told. Frame: world.
+// A host for tests of the agent: the robot is exactly where its plan says, observations come at 10 Hz,
+// messages as the test says. Truth (boxes, movers) is kept apart from what the agent is told. Frame: world.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -101,8 +101,7 @@ struct AgentOutput {
 inline AgentOutput step(RobotAgent& agent, double time, const AgentInput& input,
                         StopCause stop = StopCause::none) {
   for (const HeardMessage& message : input.messages) agent.hear(message, time);
-  const std::optional<Pose2> here =
-      input.state.valid ? std::optional{input.state.pose_world} : std::nullopt;
+  const std::optional<Pose2> here = input.state.valid ? std::optional{input.state.pose_world} : std::nullopt;
   if (input.observation) agent.observe(*input.observation, here, time);
   if (!agent.plan_due(time)) return {};
   return {true, agent.plan(time, input.state, stop)};

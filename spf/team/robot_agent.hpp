@@ -1,6 +1,6 @@
-// What a robot decides: from what it sees and hears, where it is and whether it has to stop, to the trajectory
-// that it is committed to and what it tells its peers. It plans; who measures its pose, drives its wheels and
-// watches over both composes it with a localiser and a controller (host/robot_host.hpp).
+// What a robot decides: from what it sees and hears, where it is and whether it has to stop, to the
+// trajectory that it is committed to and what it tells its peers. It plans; who measures its pose, drives its
+// wheels and watches over both composes it with a localiser and a controller (host/robot_host.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +24,8 @@ namespace spf {
 /// Times [s] must not go back. Frame: world.
 class RobotAgent {
  public:
-  /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed). It stands
-  /// at `start` from `time` on. Throws std::invalid_argument when parameters are out of range.
+  /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed). It
+  /// stands at `start` from `time` on. Throws std::invalid_argument when parameters are out of range.
   RobotAgent(int robot_id, const AgentParameters& parameters, const OccupancyMap& map, const Pose2& start,
              double time);
   ~RobotAgent();
@@ -43,14 +43,14 @@ class RobotAgent {
 
   /// A message of a peer, heard now.
   void hear(const HeardMessage& message, double now);
-  /// What was seen, from where: without a pose its scan tells nothing. One that is too old to rely on, or ahead
-  /// of time, is ignored.
+  /// What was seen, from where: without a pose its scan tells nothing. One that is too old to rely on, or
+  /// ahead of time, is ignored.
   void observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now);
 
   [[nodiscard]] bool plan_due(double now) const;
-  /// Plans and commits, or brakes where there is a cause to stop that no plan can mend; returns the message to
-  /// broadcast when there is one. `state` is where the robot is now; without it the robot is exactly where its
-  /// trajectory says.
+  /// Plans and commits, or brakes where there is a cause to stop that no plan can mend; returns the message
+  /// to broadcast when there is one. `state` is where the robot is now; without it the robot is exactly where
+  /// its trajectory says.
   std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state,
                                         StopCause stop = StopCause::none);
 

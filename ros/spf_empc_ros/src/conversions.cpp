@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/robot_map.hpp"
 #include "spf/math/angles.hpp"
 
 namespace spf_empc_ros {
@@ -368,9 +369,7 @@ Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid, c
       low + cell * Eigen::Vector2d{static_cast<double>(width), static_cast<double>(height)};
   try {
     // Shapes between nodes keep their exact distance, so nodes may be farther apart than cells.
-    const double resolution = std::max(cell, host.map_resolution);
-    spf::OccupancyMap map{spf::GridFrame::covering(low, high, resolution),
-                          std::max(host.map_reach, 4.0 * resolution), occupancy};
+    spf::OccupancyMap map = spf::host::empty_map(low, high, spf::host::MapGrain::of(host), occupancy, cell);
     map.add_border(low, high);
     for (std::size_t j = 0; j < height; ++j) {
       const auto row = grid.data.begin() + static_cast<std::ptrdiff_t>(j * width);

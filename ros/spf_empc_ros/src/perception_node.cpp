@@ -20,27 +20,15 @@ PerceptionNode::PerceptionNode(ros::NodeHandle node, const RobotConfig& config, 
       diagnostics_{node_, config.robot_id, "perception"},
       base_frame_{"robot" + std::to_string(config.robot_id) + "/base_link"} {
   observation_ = node_.advertise<spf_empc_msgs::Observation>("observation", 10);
-  grid_ = node_.advertise<nav_msgs::OccupancyGrid>("grid", 1, true);
-  tracks_ = node_.advertise<spf_empc_msgs::ObstacleTracks>("tracks", 5);
-  subscribers_ = {node_.subscribe("odom", 20, &PerceptionNode::on_pose, this, kNoDelay),
-                  node_.subscribe("scan", 2, &PerceptionNode::on_scan, this, kNoDelay),
-                  node_.subscribe("obstacles", 5, &PerceptionNode::on_obstacles, this, kNoDelay),
-                  node_.subscribe("/map", 1, &PerceptionNode::on_map, this)};
-  timer_ = node_.createTimer(ros::Duration{1.0}, [this](const ros::TimerEvent&) { show(); });
+  subscribers_ = {node_.subscribe("scan", 2, &PerceptionNode::on_scan, this, kNoDelay),
+                  node_.subscribe("obstacles", 5, &PerceptionNode::on_obstacles, this, kNoDelay)};
+  timer_ = node_.createTimer(ros::Duration{1.0}, [this](const ros::TimerEvent&) { report(); });
 }
 
 void PerceptionNode::refuse(const char* what, const std::string& why) {
   ++refused_;
   last_refusal_ = std::string{what} + ": " + why;
   ROS_WARN_THROTTLE(1.0, "%s", last_refusal_.c_str());
-}
-
-void PerceptionNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
-  const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
-  if (!pose) return refuse("odom", pose.refusal);
-  const spf::host::PoseVerdict verdict =
-      host_.add_pose({clock_.seconds(odometry->header.stamp), *pose}, now());
-  if (!believed(verdict)) refuse("odom", to_string(verdict));
 }
 
 void PerceptionNode::on_scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
@@ -58,16 +46,6 @@ void PerceptionNode::on_obstacles(const spf_empc_msgs::ObstacleTracks::ConstPtr&
   const Converted<std::vector<spf::Detection>> seen = from_message(*tracks, *frame);
   if (!seen) return refuse("obstacles", seen.refusal);
   publish(host_.add_detections(clock_.seconds(tracks->header.stamp), *seen, now()), "obstacles");
-  if (tracks_.getNumSubscribers() > 0)
-    tracks_.publish(to_message(host_.tracker().tracks(), clock_, config_.frame));
-}
-
-void PerceptionNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
-  if (!config_.waits_for_map) return;
-  const Converted<spf::OccupancyMap> known =
-      from_message(*map, config_.frame, config_.file.host, config_.agent.occupancy);
-  if (!known) return refuse("/map", known.refusal);
-  host_.set_map(*known);
 }
 
 void PerceptionNode::publish(const std::optional<spf::host::SensedWorld>& sensed, const char* what) {
@@ -75,14 +53,9 @@ void PerceptionNode::publish(const std::optional<spf::host::SensedWorld>& sensed
   observation_.publish(to_message(*sensed, clock_, config_.frame));
 }
 
-void PerceptionNode::show() {
+void PerceptionNode::report() {
   const ros::Time time = ros::Time::now();
   const double seconds = clock_.seconds(time);
-  if (host_.map() != nullptr && grid_.getNumSubscribers() > 0) {
-    nav_msgs::OccupancyGrid grid = to_message(*host_.map(), config_.frame);
-    grid.header.stamp = time;
-    grid_.publish(grid);
-  }
   const double stale = config_.agent.team.stale_time;
   const spf::host::HostParameters& relied = config_.file.host;
   std::string message = "sensing";
@@ -90,7 +63,6 @@ void PerceptionNode::show() {
   if (relied.relies_on_scan && host_.scan_age(seconds) > stale) message = "no scan";
   Diagnostics::Values values{{"scan age", age_text(host_.scan_age(seconds))},
                              {"obstacles age", age_text(host_.detections_age(seconds))},
-                             {"tracks", std::to_string(host_.tracker().tracks().size())},
                              {"refused", std::to_string(refused_)}};
   if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
   diagnostics_.report(time, message == "sensing" ? Health::ok : Health::missing, message, values);

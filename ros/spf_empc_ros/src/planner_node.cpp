@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kStepPeriod = 0.01;    // [s] as fast as poses come
 constexpr double kPicturePeriod = 0.2;  // [s]
+constexpr double kGridPeriod = 1.0;     // [s]
 constexpr double kStatusPeriod = 0.5;   // [s] while there is no agent
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 
@@ -40,6 +41,8 @@ PlannerNode::PlannerNode(ros::NodeHandle node, const RobotConfig& config, const 
   status_ = node_.advertise<spf_empc_msgs::RobotStatus>("status", 10);
   path_ = node_.advertise<nav_msgs::Path>("path", 2);
   markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  grid_ = node_.advertise<nav_msgs::OccupancyGrid>("grid", 1, true);
+  tracks_ = node_.advertise<spf_empc_msgs::ObstacleTracks>("tracks", 5);
   subscribers_ = {node_.subscribe("odom", 50, &PlannerNode::on_pose, this, kNoDelay),
                   node_.subscribe("wheel_speeds", 20, &PlannerNode::on_wheels, this, kNoDelay),
                   node_.subscribe("observation", 10, &PlannerNode::on_observation, this, kNoDelay),
@@ -117,6 +120,7 @@ void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
     host_.planner().count_refused_input();
     return refuse("/map", known.refusal);
   }
+  shown_revision_.reset();
   host_.planner().set_map(std::move(*known.value));
 }
 
@@ -144,12 +148,18 @@ void PlannerNode::step() {
     next_picture_ = seconds + kPicturePeriod;
     publish_pictures(seconds);
   }
+  if (seconds >= next_grid_ || next_grid_ > seconds + kGridPeriod) {
+    next_grid_ = seconds + kGridPeriod;
+    publish_grid(time);
+  }
 }
 
 void PlannerNode::publish_plan(const spf::host::PlannerOutput& output) {
   const std::optional<double> observed =
       std::isfinite(output.observed) ? std::optional<double>{output.observed} : std::nullopt;
   trajectory_.publish(to_message(ToldTrajectory{output.plan, observed}, clock_, config_.frame));
+  if (tracks_.getNumSubscribers() > 0)
+    tracks_.publish(to_message(host_.planner().agent()->tracks(), clock_, config_.frame));
   if (output.broadcast)
     broadcast_.publish(to_message(ToldTrajectory{*output.broadcast, observed}, clock_, config_.frame));
 }
@@ -190,6 +200,16 @@ void PlannerNode::publish_pictures(double now) {
                                     clock_, config_.frame));
 }
 
+/// The map that is planned with, to somebody who looks, when it has changed.
+void PlannerNode::publish_grid(const ros::Time& now) {
+  const spf::OccupancyMap* map = host_.planner().map();
+  if (map == nullptr || grid_.getNumSubscribers() == 0 || shown_revision_ == map->revision()) return;
+  shown_revision_ = map->revision();
+  nav_msgs::OccupancyGrid grid = to_message(*map, config_.frame);
+  grid.header.stamp = now;
+  grid_.publish(grid);
+}
+
 void PlannerNode::report(const ros::Time& now) {
   const spf::host::PlannerStatus status = host_.planner().status();
   if (!diagnostics_.due(now, status.reason)) return;
@@ -206,6 +226,8 @@ void PlannerNode::report(const ros::Time& now) {
       {"messages malformed", std::to_string(host_.planner().counts().messages_malformed)},
       {"messages of too many peers", std::to_string(host_.planner().counts().messages_crowded)},
       {"clock jumps", std::to_string(host_.clock_jumps())}};
+  if (const spf::RobotAgent* agent = host_.planner().agent())
+    values.emplace_back("tracks", std::to_string(agent->tracks().size()));
   if (status.culprit >= 0) values.emplace_back("culprit", std::to_string(status.culprit));
   if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
   diagnostics_.report(now, health, status.reason, values);

@@ -1,9 +1,7 @@
-// PerceptionHost on ROS: scans and reports of obstacles in, observations for the planner out; map and tracks
-// for people. Topics: docs/ros.md.
+// PerceptionHost on ROS: scans and reports of obstacles in, observations for the planner out. Topics:
+// docs/ros.md.
 #pragma once
 
-#include <nav_msgs/OccupancyGrid.h>
-#include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
@@ -28,12 +26,10 @@ class PerceptionNode {
   PerceptionNode(ros::NodeHandle node, const RobotConfig& config, const ros::Time& start);
 
  private:
-  void on_pose(const nav_msgs::Odometry::ConstPtr& odometry);
   void on_scan(const sensor_msgs::LaserScan::ConstPtr& scan);
   void on_obstacles(const spf_empc_msgs::ObstacleTracks::ConstPtr& tracks);
-  void on_map(const nav_msgs::OccupancyGrid::ConstPtr& map);
   void publish(const std::optional<spf::host::SensedWorld>& sensed, const char* what);
-  void show();
+  void report();
   void refuse(const char* what, const std::string& why);
   [[nodiscard]] double now() const { return clock_.seconds(ros::Time::now()); }
 
@@ -44,7 +40,7 @@ class PerceptionNode {
   Frames frames_;
   Diagnostics diagnostics_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::Publisher observation_, grid_, tracks_;
+  ros::Publisher observation_;
   ros::Timer timer_;
   std::string base_frame_;
   std::string last_refusal_;

@@ -15,6 +15,7 @@
 #include <std_msgs/Bool.h>
 #include <std_msgs/Empty.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ class PlannerNode {
   void publish_plan(const spf::host::PlannerOutput& output);
   void publish_status(const ros::Time& now, double plan_ms);
   void publish_pictures(double now);
+  void publish_grid(const ros::Time& now);
   void report(const ros::Time& now);
   void refuse(const char* what, const std::string& why);
   [[nodiscard]] double now() const { return clock_.seconds(ros::Time::now()); }
@@ -56,10 +58,12 @@ class PlannerNode {
   Diagnostics diagnostics_;
   StopSwitch switch_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::Publisher trajectory_, broadcast_, status_, path_, markers_;
+  ros::Publisher trajectory_, broadcast_, status_, path_, markers_, grid_, tracks_;
   ros::Timer timer_;
-  double next_picture_ = 0.0;  // [s]
-  double next_status_ = 0.0;   // [s]
+  double next_picture_ = 0.0;                    // [s]
+  double next_grid_ = 0.0;                       // [s]
+  double next_status_ = 0.0;                     // [s]
+  std::optional<std::uint64_t> shown_revision_;  // of the map
   std::string last_refusal_;
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/robot_map.hpp"
 #include "sim/simulation.hpp"
 #include "spf/robot/robot_scale.hpp"
 
@@ -52,9 +53,9 @@ OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& para
   const SensingParameters& sensing = scenario.simulation.sensing;
   const Box extent = extent_of(scenario);
   const Eigen::Vector2d size = extent.high - extent.low;
-  const double resolution = std::max(sensing.map_resolution, std::sqrt(size.x() * size.y() / kMaxNodes));
-  const GridFrame frame = GridFrame::covering(extent.low, extent.high, resolution);
-  OccupancyMap map{frame, std::max(sensing.map_max_distance, 4.0 * resolution), parameters};
+  const host::MapGrain grain{sensing.map_resolution, sensing.map_max_distance};
+  OccupancyMap map =
+      host::empty_map(extent.low, extent.high, grain, parameters, std::sqrt(size.x() * size.y() / kMaxNodes));
   if (scenario.border) map.add_border(scenario.border->low, scenario.border->high);
   if (sensing.map == MapKnowledge::sensed) return map;
   for (const Box& box : scenario.boxes) map.add_box(box.low, box.high);
@@ -79,6 +80,8 @@ host::HostParameters host_parameters_for(const Scenario& scenario) {
   host.jump_distance = std::min(host.jump_distance + spread, 1000.0);
   host.jump_heading = std::min(host.jump_heading + kSigmas * noise.heading_sigma, 6.3);
   host.largest_plan_error = std::min(host.largest_plan_error + spread, 100.0);
+  host.map_resolution = simulation.sensing.map_resolution;
+  host.map_reach = simulation.sensing.map_max_distance;
   host.relies_on_scan = false;
   host.relies_on_obstacles = simulation.trial.tracking == TrackingMode::full;
   host.trusts_peers = true;

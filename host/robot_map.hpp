@@ -1,0 +1,38 @@
+// Maps of robots: how fine, and how far their distances reach, by one rule for those that are given, sensed
+// or simulated. Frame: world.
+#pragma once
+
+#include <algorithm>
+
+#include "host/host_parameters.hpp"
+#include "spf/world/occupancy_map.hpp"
+
+namespace spf::host {
+
+/// Node distance and reach [m] of a robot's map. The defaults follow the robot's size.
+struct MapGrain {
+  double resolution = HostParameters{}.map_resolution;
+  double reach = HostParameters{}.map_reach;
+
+  [[nodiscard]] static MapGrain of(const HostParameters& host) {
+    return {host.map_resolution, host.map_reach};
+  }
+};
+
+/// Nothing is known of this rectangle yet. Nodes are no nearer than `finest` [m] to each other, whatever the
+/// grain wants; distances reach over four of them at least.
+[[nodiscard]] inline OccupancyMap empty_map(const Eigen::Vector2d& low, const Eigen::Vector2d& high,
+                                            const MapGrain& grain, const OccupancyParameters& occupancy,
+                                            double finest = 0.0) {
+  const double resolution = std::max(grain.resolution, finest);
+  return {GridFrame::covering(low, high, resolution), std::max(grain.reach, 4.0 * resolution), occupancy};
+}
+
+/// The map of a robot that was given none: a square of `grid_size` around a place [m].
+[[nodiscard]] inline OccupancyMap sensed_map(const Eigen::Vector2d& centre_world, const HostParameters& host,
+                                             const OccupancyParameters& occupancy) {
+  const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * host.grid_size);
+  return empty_map(centre_world - half, centre_world + half, MapGrain::of(host), occupancy);
+}
+
+}  // namespace spf::host
