@@ -11,7 +11,7 @@ install(DIRECTORY launch config rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINAT
 if(CATKIN_ENABLE_TESTING)
   find_package(GTest REQUIRED)
   add_executable(spf_empc_simulator_tests
-    test/package_files_test.cpp test/simulated_bases_test.cpp test/simulator_messages_test.cpp test/simulator_pace_test.cpp)
+    test/composition_test.cpp test/package_files_test.cpp test/simulated_bases_test.cpp test/simulator_messages_test.cpp test/simulator_pace_test.cpp)
   spf_ros_options(spf_empc_simulator_tests)
   set_source_files_properties(test/package_files_test.cpp PROPERTIES COMPILE_DEFINITIONS
     SPF_EMPC_ROS_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
