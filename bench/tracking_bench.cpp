@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "spf/localisation/observer.hpp"
+#include "spf/tracking/test/closed_loop.hpp"
 #include "spf/tracking/test/mpc_instances.hpp"
 #include "spf/tracking/test/plan_through.hpp"
-#include "spf/tracking/tracker.hpp"
 #ifdef SPF_HAVE_IPOPT
 #include "spf/tracking/test/mpc_ipopt_oracle.hpp"
 #endif

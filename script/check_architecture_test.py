@@ -50,7 +50,7 @@ class Arrows(Copy):
         self.assert_caught(PURE, '#include <cmath>\n#include "spf/team/robot_agent.hpp"\n', 2, "does not depend on team")
 
     def test_sideways_include_is_caught(self):
-        self.assert_caught("spf/planning/probe.cpp", '#include "spf/tracking/tracker.hpp"\n', 1, "depend on tracking")
+        self.assert_caught("spf/planning/probe.cpp", '#include "spf/tracking/mpc.hpp"\n', 1, "depend on tracking")
 
     def test_include_through_other_rooms_passes(self):
         self.assert_passes("spf/team/probe.cpp", '#include "spf/math/angles.hpp"\n#include "spf/world/peer.hpp"\n')

@@ -1,5 +1,5 @@
 // The tracker in closed loop with the torque-limited plant (plant 200 Hz, pose 100 Hz, control 20 Hz).
-#include "spf/tracking/tracker.hpp"
+#include "spf/tracking/test/closed_loop.hpp"
 
 #include <gtest/gtest.h>
 
