@@ -227,8 +227,9 @@ TEST(Faults, ItsOwnSequenceGrowsOverRestartsOfItsAgent) {
       bench.planning.add_pose({bench.now, bench.pose}, bench.now);
       const PlannerOutput& output = bench.planning.step(bench.now);
       if (!output.broadcast) continue;
-      EXPECT_GT(output.broadcast->sequence, last);
-      last = output.broadcast->sequence;
+      const TrajectoryMessage& told = *output.broadcast;
+      EXPECT_GT(told.sequence, last);
+      last = told.sequence;
     }
   };
   watch(2.0);
@@ -448,6 +449,24 @@ TEST(PlannerHost, WaitsForTheMapUnlessThereIsNone) {
   stand(11.0);
   ASSERT_NE(host.agent(), nullptr);
   EXPECT_NEAR(host.agent()->map().frame().origin_world.x(), 1.0 - 0.5 * parameters.grid_size, 0.11);
+}
+
+TEST(PlannerHost, LetsGoOfWhatNobodyLooksAtAnyMore) {
+  HostParameters parameters;
+  parameters.relies_on_scan = parameters.relies_on_obstacles = false;
+  Bench bench{Arrangement::one_process, parameters};
+  bench.send_scans = bench.send_detections = false;
+  bench.run(1.0);
+  SensedWorld sensed;
+  sensed.has_detections = true;
+  sensed.observation.time = bench.now;
+  sensed.observation.detections.resize(1);
+  sensed.observation.detections[0].position_world = {5.0, 5.0};
+  ASSERT_EQ(bench.robot.add_observation(sensed, bench.now), ObservationVerdict::accepted);
+  bench.run(0.2);
+  EXPECT_EQ(bench.planner.agent()->tracks().size(), 1u);
+  bench.run(AgentParameters{}.obstacles.timeout + 0.5);
+  EXPECT_TRUE(bench.planner.agent()->tracks().empty());
 }
 
 TEST(PlannerHost, NamesTheObservationsItRefuses) {

@@ -209,7 +209,17 @@ const PlannerOutput& PlannerHost::step(double now, const Localiser* localiser) {
   return output_;
 }
 
+/// Nobody looks, and nobody is relied on to: what was seen once is let go in time.
+void PlannerHost::let_go(double now) {
+  const double last = std::max(last_scan_time_, last_detections_time_);
+  if (host_.relies_on_obstacles || now - last <= agent_parameters_.team.stale_time) return;
+  Observation nothing;
+  nothing.time = now;
+  agent_->observe(nothing, std::nullopt, now);
+}
+
 void PlannerHost::plan(double now, const Localiser* localiser) {
+  let_go(now);
   std::optional<StateEstimate> state;
   if (localiser != nullptr) state = localiser->estimate(now);
   std::optional<TrajectoryMessage> told = agent_->plan(now, state, stop_cause_);
@@ -219,7 +229,7 @@ void PlannerHost::plan(double now, const Localiser* localiser) {
     agent_sequence_ = told->sequence;
     told->sequence += sequence_;
   }
-  output_.broadcast = std::move(told);
+  if (told) output_.broadcast = *told;
   TrajectoryMessage& plan = output_.plan;
   plan.robot_id = robot_id_;
   plan.priority = agent_parameters_.team.priority;

@@ -38,10 +38,10 @@ struct Goal {
 };
 
 struct PlannerOutput {
-  bool planned = false;                        ///< in this step; only then the rest is new
-  TrajectoryMessage plan;                      ///< for the robot's own tracker, after every plan
-  double observed = 0.0;                       ///< [s] when the newest observation behind it was made
-  std::optional<TrajectoryMessage> broadcast;  ///< for the peers, when there is something to tell
+  bool planned = false;                   ///< in this step; only then the rest is new
+  TrajectoryMessage plan;                 ///< for the robot's own tracker, after every plan
+  double observed = 0.0;                  ///< [s] when the newest observation behind it was made
+  std::optional<HeardMessage> broadcast;  ///< for the peers, when there is something to tell
 };
 
 /// How the planner stands: the agent's status, or why there is none.
@@ -111,6 +111,7 @@ class PlannerHost {
   void start_when_ready(double now, const Localiser& localiser);
   [[nodiscard]] ObservationVerdict judge(const SensedWorld& sensed, double now) const;
   [[nodiscard]] StopCause stop_cause(double now, const Localiser* localiser) const;
+  void let_go(double now);
   void plan(double now, const Localiser* localiser);
   void doubt_peers(const Observation& observation, const Pose2& pose_world);
   [[nodiscard]] bool well_formed(const TrajectoryMessage& message) const;

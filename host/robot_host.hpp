@@ -24,7 +24,7 @@ struct RobotOutput {
   bool planned = false;                                    ///< a plan was made in this step
   bool controlled = false;                                 ///< `wheel_speeds` was renewed in this step
   Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] rim speeds, held until the next
-  std::optional<TrajectoryMessage> broadcast;              ///< for the peers, when there is something to tell
+  std::optional<HeardMessage> broadcast;                   ///< for the peers, when there is something to tell
 };
 
 class RobotHost {

@@ -48,7 +48,7 @@ class CompositionTest : public ::testing::Test {
   [[nodiscard]] static Commands simulated() {
     Commands commands;
     for (const LoggedTick& tick : ticks_)
-      if (tick.controlled) commands.push_back(tick.wheel_speeds);
+      if (tick.action.controlled) commands.push_back(tick.action.wheel_speeds);
     return commands;
   }
 
@@ -83,7 +83,7 @@ class CompositionTest : public ::testing::Test {
       for (const host::SensedWorld& seen : tick.input.seen) planner.add_observation(seen, tick.time);
       const host::PlannerOutput& output = planner.step(tick.time);
       if (output.planned) tracker.add_plan(output.plan, tick.time);
-      if (!tick.controlled) continue;  // its timer
+      if (!tick.action.controlled) continue;  // its timer
       const Eigen::Vector3d command = tracker.step(tick.time).wheel_speeds;
       commands.push_back(command);
       tracker.applied(tick.time, base(command));

@@ -11,16 +11,15 @@ namespace spf::sim {
 struct LoggedTick {
   double time = 0.0;  ///< [s]
   RobotInput input;
-  bool controlled = false;
-  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] commanded, when controlled
+  RobotAction action;
 };
 
 class InputLog : public TrialListener {
  public:
   explicit InputLog(int robot) : robot_{robot} {}
 
-  void thought(double time, int robot, const RobotInput& input, const host::RobotOutput& output) override {
-    if (robot == robot_) ticks_.push_back({time, input, output.controlled, output.wheel_speeds});
+  void thought(double time, int robot, const RobotInput& input, const RobotAction& action) override {
+    if (robot == robot_) ticks_.push_back({time, input, action});
   }
   [[nodiscard]] const std::vector<LoggedTick>& ticks() const { return ticks_; }
 

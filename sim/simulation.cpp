@@ -17,7 +17,7 @@ struct Desk {
   RobotInput input;                       // of this tick
   std::deque<host::SensedWorld> waiting;  // not yet given to the robot
   std::vector<host::SensedWorld> spare;   // kept for its memory
-  host::RobotOutput output;               // of this tick
+  RobotAction action;                     // of this tick
   std::optional<HeardMessage> told;       // likewise
   double plan_seconds = 0.0;              // of the call, with what it had to take in
   double control_seconds = 0.0;           // likewise
@@ -135,7 +135,7 @@ void Simulation::Implementation::observe() {
 
 void Simulation::Implementation::think() {
   const auto job = [this](std::size_t robot) {
-    desks[robot].output = {};
+    desks[robot].action = {};
     desks[robot].told.reset();
     if (world.robots()[robot].active()) think(robot);
   };
@@ -185,16 +185,16 @@ void Simulation::Implementation::plan(std::size_t robot, double started) {
   const host::PlannerOutput& output = robots[robot].plan(now());
   desk.world_seconds += clock() - started;
   if (!output.planned) return;
-  desk.output.planned = true;
+  desk.action.planned = true;
   desk.plan_seconds = std::exchange(desk.world_seconds, 0.0);
-  if (output.broadcast) desk.told = *output.broadcast;
+  desk.told = output.broadcast;
 }
 
 void Simulation::Implementation::control(std::size_t robot) {
   Desk& desk = desks[robot];
   const double started = clock();
-  desk.output.wheel_speeds = robots[robot].control(now()).wheel_speeds;
-  desk.output.controlled = true;
+  desk.action.wheel_speeds = robots[robot].control(now()).wheel_speeds;
+  desk.action.controlled = true;
   desk.control_seconds = std::exchange(desk.pose_seconds, 0.0) + clock() - started;
 }
 
@@ -202,15 +202,15 @@ void Simulation::Implementation::conclude(std::size_t robot) {
   const int id = static_cast<int>(robot);
   const RobotAgent& agent = robots[robot].agent();
   const Desk& desk = desks[robot];
-  for (TrialListener* listener : listeners) listener->thought(now(), id, desk.input, desk.output);
-  if (desk.output.planned) {
+  for (TrialListener* listener : listeners) listener->thought(now(), id, desk.input, desk.action);
+  if (desk.action.planned) {
     if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * desk.plan_seconds));
     meter.planned(id, agent.last_plan());
     if (desk.told) radio.send(now(), *desk.told, world.positions()[robot]);
     for (TrialListener* listener : listeners) listener->planned(now(), agent, 1e3 * desk.plan_seconds);
   }
-  if (desk.output.controlled) {
-    world.command(id, desk.output.wheel_speeds);
+  if (desk.action.controlled) {
+    world.command(id, desk.action.wheel_speeds);
     if (options.clock) {
       last_control_us[robot] = 1e6 * desk.control_seconds;
       control_us.push_back(static_cast<float>(last_control_us[robot]));

@@ -31,6 +31,13 @@ struct RobotInput {
   std::vector<host::SensedWorld> seen;
 };
 
+/// What it did in that tick.
+struct RobotAction {
+  bool planned = false;
+  bool controlled = false;
+  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] commanded, when controlled
+};
+
 /// All calls come from the thread that runs the trial, in the order of time.
 class TrialListener {
  public:
@@ -39,7 +46,7 @@ class TrialListener {
   /// Every 0.1 s.
   virtual void frame(const TrialFrame&) {}
   /// At every pose: what a robot was given, and what it did.
-  virtual void thought(double /*time*/, int /*robot*/, const RobotInput&, const host::RobotOutput&) {}
+  virtual void thought(double /*time*/, int /*robot*/, const RobotInput&, const RobotAction&) {}
   /// A robot has planned, which took `plan_ms` [ms] (0 without a clock); what came of it is the agent's
   /// last_plan().
   virtual void planned(double /*time*/, const RobotAgent&, double /*plan_ms*/) {}

@@ -161,23 +161,6 @@ Converted<ToldTrajectory> from_message(const spf_empc_msgs::Trajectory& message,
   return {told, {}};
 }
 
-// ---- wheels -----------------------------------------------------------------------------------------------
-
-spf_empc_msgs::WheelSpeeds to_message(const Eigen::Vector3d& wheel_speeds, double limit) {
-  spf_empc_msgs::WheelSpeeds message;
-  message.speeds.assign(wheel_speeds.begin(), wheel_speeds.end());
-  message.limit = limit;
-  return message;
-}
-
-Converted<Eigen::Vector3d> from_message(const spf_empc_msgs::WheelSpeeds& message) {
-  using Result = Converted<Eigen::Vector3d>;
-  if (message.speeds.size() != 3) return Result::refused(sizes("speeds", message.speeds.size(), 3));
-  const Eigen::Vector3d speeds{message.speeds[0], message.speeds[1], message.speeds[2]};
-  if (!speeds.allFinite()) return Result::refused("a speed is not finite");
-  return {speeds, {}};
-}
-
 // ---- poses ------------------------------------------------------------------------------------------------
 
 Converted<spf::Pose2> from_message(const geometry_msgs::Pose& pose) {

@@ -120,7 +120,7 @@ void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
     host_.planner().count_refused_input();
     return refuse("/map", known.refusal);
   }
-  shown_revision_.reset();
+  shown_grid_.revision.reset();
   host_.planner().set_map(std::move(*known.value));
 }
 
@@ -148,8 +148,8 @@ void PlannerNode::step() {
     next_picture_ = seconds + kPicturePeriod;
     publish_pictures(seconds);
   }
-  if (seconds >= next_grid_ || next_grid_ > seconds + kGridPeriod) {
-    next_grid_ = seconds + kGridPeriod;
+  if (seconds >= shown_grid_.next || shown_grid_.next > seconds + kGridPeriod) {
+    shown_grid_.next = seconds + kGridPeriod;
     publish_grid(time);
   }
 }
@@ -203,8 +203,8 @@ void PlannerNode::publish_pictures(double now) {
 /// The map that is planned with, to somebody who looks, when it has changed.
 void PlannerNode::publish_grid(const ros::Time& now) {
   const spf::OccupancyMap* map = host_.planner().map();
-  if (map == nullptr || grid_.getNumSubscribers() == 0 || shown_revision_ == map->revision()) return;
-  shown_revision_ = map->revision();
+  if (map == nullptr || grid_.getNumSubscribers() == 0 || shown_grid_.revision == map->revision()) return;
+  shown_grid_.revision = map->revision();
   nav_msgs::OccupancyGrid grid = to_message(*map, config_.frame);
   grid.header.stamp = now;
   grid_.publish(grid);

@@ -90,7 +90,7 @@ class CompositionTest : public ::testing::Test {
       for (const spf::HeardMessage& message : tick.input.messages) robot.add_message(message, tick.time);
       for (const spf::host::SensedWorld& seen : tick.input.seen) robot.add_observation(seen, tick.time);
       robot.plan(tick.time);
-      if (tick.controlled) commands.push_back(robot.control(tick.time).wheel_speeds);
+      if (tick.action.controlled) commands.push_back(robot.control(tick.time).wheel_speeds);
     }
     return commands;
   }
@@ -114,7 +114,7 @@ class CompositionTest : public ::testing::Test {
         planner.add_observation(*from_message(to_message(seen, kClock, kFrame), kClock, kFrame), now);
       const spf::host::PlannerOutput& output = planner.step(now);
       if (output.planned) tracker.add_plan(over_wire(output.plan, output.observed), now);
-      if (!tick.controlled) continue;  // its timer
+      if (!tick.action.controlled) continue;  // its timer
       commands.push_back(tracker.step(now).wheel_speeds);
       spf_empc_msgs::WheelSpeeds wheels =
           to_message(share_that_is_told * commands.back(), tracker.tracker().max_wheel_speed());

@@ -60,10 +60,12 @@ class PlannerNode {
   std::vector<ros::Subscriber> subscribers_;
   ros::Publisher trajectory_, broadcast_, status_, path_, markers_, grid_, tracks_;
   ros::Timer timer_;
-  double next_picture_ = 0.0;                    // [s]
-  double next_grid_ = 0.0;                       // [s]
-  double next_status_ = 0.0;                     // [s]
-  std::optional<std::uint64_t> shown_revision_;  // of the map
+  double next_picture_ = 0.0;  // [s]
+  double next_status_ = 0.0;   // [s]
+  struct {
+    double next = 0.0;                      // [s] when it may be shown again
+    std::optional<std::uint64_t> revision;  // of the map that was
+  } shown_grid_;
   std::string last_refusal_;
 };
 
