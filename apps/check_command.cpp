@@ -36,10 +36,10 @@ std::string scene_text(const sim::Scenario& scenario) {
   return text;
 }
 
-void print_summary(const std::string& file, const Study& study) {
-  const sim::SimulationParameters& simulation = study.simulation;
-  std::cout << file << ": good\n  family " << enum_name(study.family) << ", method " << study.method.name()
-            << ", seed " << study.seed << "\n  " << scene_text(make_trial(study, 0)) << "\n  noise "
+void print_summary(const std::string& file, const RunConfiguration& config) {
+  const sim::SimulationParameters& simulation = config.simulation;
+  std::cout << file << ": good\n  family " << enum_name(config.family) << ", method " << config.method.name()
+            << ", seed " << config.seed << "\n  " << scene_text(make_trial(config, 0)) << "\n  noise "
             << enum_name(simulation.noise.model) << " at " << simulation.noise.level << " Sigma, map "
             << enum_name(simulation.sensing.map) << ", detections "
             << enum_name(simulation.sensing.detections) << ", tracking "
@@ -50,7 +50,7 @@ int check(const CheckOptions& options) {
   bool good = true;
   for (const std::string& file : options.files) {
     try {
-      print_summary(file, read_study(file, options.scenario.to_settings(), options.methods));
+      print_summary(file, read_run_configuration(file, options.scenario.to_settings(), options.methods));
     } catch (const InputError& error) {
       std::cout.flush();
       std::cerr << error.what() << "\n";

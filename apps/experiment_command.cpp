@@ -198,7 +198,7 @@ class Experiment {
       throw OutputError{store_->folder()->file("cells").string() + ": cannot be made: " + error.message()};
     for (const Cell& cell : plan_.cells)
       write_file_atomically(store_->folder()->file("cells") / cell_file_name(cell.key),
-                            resolved_scenario(cell.study));
+                            resolved_scenario(cell.config));
   }
 
   [[nodiscard]] std::vector<CampaignTrial> missing(std::vector<CampaignTrial> wanted) const {

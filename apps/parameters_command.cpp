@@ -24,7 +24,7 @@ std::string explained(const std::string& file, const MethodTable& methods) {
          "# Made by `spf parameters --explain FILE`, which writes any scenario in this form: each key with "
          "its\n"
          "# meaning and range. Units are SI, angles in radians, positions in the world frame.\n" +
-         to_yaml_text(read_study(file, {}, methods), true);
+         to_yaml_text(read_run_configuration(file, {}, methods), true);
 }
 
 std::string as_table(const std::vector<ParameterRow>& rows) {

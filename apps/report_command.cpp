@@ -163,7 +163,7 @@ class Report {
     std::error_code error;
     if (fs::exists(folder / name, error)) return address;
     progress_.show("replay of trial " + std::to_string(record.key.trial) + " of " + cell_text(record.key));
-    Cell again = cell_of(read_study(parts.scenarios[cell].string(), {}, options_.methods));
+    Cell again = cell_of(read_run_configuration(parts.scenarios[cell].string(), {}, options_.methods));
     again.key = record.key;
     const std::optional<ReplayPage> page = replay_page(again, record, steady_seconds, interrupted);
     if (!page) return "";

@@ -39,9 +39,9 @@ std::string time_left(double elapsed, std::size_t done, int all) {
 /// One scenario on its way through `spf run`: a campaign of one cell.
 class Run {
  public:
-  Run(const RunOptions& options, Study study)
+  Run(const RunOptions& options, RunConfiguration config)
       : options_{options},
-        plan_{single_cell(std::move(study), options.first, options.trials.value_or(1))},
+        plan_{single_cell(std::move(config), options.first, options.trials.value_or(1))},
         progress_{options.quiet} {
     if (!options_.json.empty() && options_.json != "-") require_writable(options_.json);
     if (options_.out.empty())
@@ -70,7 +70,7 @@ class Run {
       return kInterruptedStatus;
     }
     store_->add(finished.record);
-    if (finished.recording) write_page("replay.html", render_replay(replay_data(cell().study, finished)));
+    if (finished.recording) write_page("replay.html", render_replay(replay_data(cell().config, finished)));
     finish(store_->finish());
     return finished.record.succeeded() ? kDone : kFailedCheck;
   }
@@ -137,10 +137,10 @@ class Run {
       facts.jobs = thread_count(options_.jobs);
       facts.wall_time = steady_seconds() - began_;
       facts.peak_memory = peak_memory();
-      folder->write("scenario.yaml", resolved_scenario(cell().study));
+      folder->write("scenario.yaml", resolved_scenario(cell().config));
       folder->write("summary.csv", csv_header() + to_csv_line(row));
       folder->write("summary.jsonl", to_json_line(row) + "\n");
-      folder->write("run.json", run_json(cell().study, facts));
+      folder->write("run.json", run_json(cell().config, facts));
     }
     progress_.end();
     if (options_.json == "-") {
@@ -148,7 +148,7 @@ class Run {
       return;
     }
     if (!options_.json.empty()) write_file_atomically(options_.json, to_json_line(row) + "\n");
-    std::cout << summary_text(cell().study, records, peak_memory() - memory_before_);
+    std::cout << summary_text(cell().config, records, peak_memory() - memory_before_);
     for (const std::string& page : pages_) std::cout << "replay: " << page << "\n";
     if (store_->folder() != nullptr) std::cout << "results: " << store_->folder()->path().string() << "\n";
   }
@@ -163,10 +163,11 @@ class Run {
 };
 
 int run(const RunOptions& options) {
-  Study study = read_study(options.file, options.scenario.to_settings(), options.methods);
-  const std::string problem = trials_problem(study, options.first, options.trials.value_or(1));
+  RunConfiguration config =
+      read_run_configuration(options.file, options.scenario.to_settings(), options.methods);
+  const std::string problem = trials_problem(config, options.first, options.trials.value_or(1));
   if (!problem.empty()) throw InputError{{options.trials ? "--trials" : "--first", 0, 0}, problem};
-  Run work{options, std::move(study)};
+  Run work{options, std::move(config)};
   return options.trials ? work.many() : work.once();
 }
 

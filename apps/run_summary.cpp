@@ -74,7 +74,8 @@ double peak_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials, double memory) {
+std::string summary_text(const RunConfiguration& config, const std::vector<TrialRecord>& trials,
+                         double memory) {
   const ResultRow row = result_row(trials);
   Table table{{{"measure", Alignment::left}, {"value", Alignment::left}}};
   const auto add = [&table](const char* name, const std::string& value) { table.add_row({name, value}); };
@@ -83,7 +84,7 @@ std::string summary_text(const Study& study, const std::vector<TrialRecord>& tri
   add("method", row.method);
   add("moving obstacles", row.noise + " noise at " + to_text(row.level) + " Sigma");
   add("tracking", row.tracking);
-  add("seed", std::to_string(study.seed));
+  add("seed", std::to_string(config.seed));
   add(single ? "trial" : "trials", trials_text(trials));
   if (single)
     add("outcome", enum_name(trials.front().outcome));
@@ -124,16 +125,16 @@ std::string summary_text(const Study& study, const std::vector<TrialRecord>& tri
   return table.to_text() + failures_text(trials);
 }
 
-std::string run_json(const Study& study, const RunFacts& facts) {
+std::string run_json(const RunConfiguration& config, const RunFacts& facts) {
   const nlohmann::ordered_json json{{"program", "spf"},
                                     {"version", version()},
                                     {"commit", kCommit},
                                     {"compiler", compiler()},
                                     {"date", today()},
                                     {"command", facts.command},
-                                    {"family", enum_name(study.family)},
-                                    {"method", study.method.name()},
-                                    {"seed", study.seed},
+                                    {"family", enum_name(config.family)},
+                                    {"method", config.method.name()},
+                                    {"seed", config.seed},
                                     {"first", facts.first},
                                     {"trials", facts.trials},
                                     {"finished", facts.finished},
@@ -144,9 +145,9 @@ std::string run_json(const Study& study, const RunFacts& facts) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string resolved_scenario(const Study& study) {
+std::string resolved_scenario(const RunConfiguration& config) {
   return "# Every key of the scenario as it was run, by spf " + std::string{version()} + " (commit " +
-         kCommit + ").\n" + to_yaml_text(study);
+         kCommit + ").\n" + to_yaml_text(config);
 }
 
 }  // namespace spf

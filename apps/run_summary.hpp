@@ -15,7 +15,7 @@ namespace spf {
 
 /// The table on stdout: outcome, times, distances, computing, and the failed trials with their reasons.
 /// `memory` [byte] is what all of it took; of a single trial it is told by robot, too.
-[[nodiscard]] std::string summary_text(const Study& study, const std::vector<TrialRecord>& trials,
+[[nodiscard]] std::string summary_text(const RunConfiguration& config, const std::vector<TrialRecord>& trials,
                                        double memory);
 
 struct RunFacts {
@@ -29,12 +29,12 @@ struct RunFacts {
 };
 
 /// run.json: what made these results.
-[[nodiscard]] std::string run_json(const Study& study, const RunFacts& facts);
+[[nodiscard]] std::string run_json(const RunConfiguration& config, const RunFacts& facts);
 
 /// Now, as 2026-01-31T12:00:00Z.
 [[nodiscard]] std::string today();
 
 /// scenario.yaml: every key written out; running it again gives the same trials.
-[[nodiscard]] std::string resolved_scenario(const Study& study);
+[[nodiscard]] std::string resolved_scenario(const RunConfiguration& config);
 
 }  // namespace spf

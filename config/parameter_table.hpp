@@ -17,7 +17,7 @@ template <>
 struct EnumNames<Scale> {
   static constexpr std::array<std::pair<Scale, const char*>, 7> values{
       {{Scale::size, "size"},
-       {Scale::way, "way"},
+       {Scale::stopping_distance, "way"},
        {Scale::speed, "speed"},
        {Scale::time, "time"},
        {Scale::area, "size^2"},

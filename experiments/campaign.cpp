@@ -39,7 +39,7 @@ struct SceneSource {
 };
 
 /// A method or variant that runs.
-struct Contender {
+struct MethodEntry {
   std::string name;
   std::optional<std::string> method;  ///< none: the scenario's own
   const MethodVariant* variant = nullptr;
@@ -62,13 +62,13 @@ class CellMaker {
     check_sizes();
     if (!problems_.empty()) return {};
     const std::vector<SceneSource> scenes = scene_sources();
-    const std::vector<Contender> contenders = all_contenders();
-    check_names(contenders);
+    const std::vector<MethodEntry> entries = all_entries();
+    check_names(entries);
     if (!problems_.empty()) return {};
     const std::size_t count = size_of(campaign_.conditions) * scenes.size() * size_of(campaign_.noise) *
-                              size_of(campaign_.levels) * kTracking.size() * contenders.size();
+                              size_of(campaign_.levels) * kTracking.size() * entries.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const Choice choice = choice_at(i, scenes, contenders);
+      const Choice choice = choice_at(i, scenes, entries);
       if (runs(choice)) add(choice);
     }
     if (cells_.empty() && problems_.empty()) problems_.add(root_.place, "leaves no cell to run");
@@ -88,7 +88,7 @@ class CellMaker {
     std::optional<sim::NoiseModel> noise;
     std::optional<double> level;
     sim::TrackingMode tracking;
-    const Contender* contender;
+    const MethodEntry* entry;
   };
 
   static constexpr std::array kTracking{sim::TrackingMode::full, sim::TrackingMode::ideal};
@@ -135,10 +135,10 @@ class CellMaker {
 
   /// Entry `index` of the product of all axes, of which the last runs fastest.
   [[nodiscard]] Choice choice_at(std::size_t index, const std::vector<SceneSource>& scenes,
-                                 const std::vector<Contender>& contenders) const {
+                                 const std::vector<MethodEntry>& entries) const {
     const auto digit = [&index](std::size_t size) { return std::exchange(index, index / size) % size; };
     Choice choice{};
-    choice.contender = &contenders[digit(contenders.size())];
+    choice.entry = &entries[digit(entries.size())];
     choice.tracking = kTracking[digit(kTracking.size())];
     if (!campaign_.levels.empty()) choice.level = campaign_.levels[digit(campaign_.levels.size())];
     if (!campaign_.noise.empty()) choice.noise = campaign_.noise[digit(campaign_.noise.size())];
@@ -166,8 +166,8 @@ class CellMaker {
     return scenes;
   }
 
-  std::vector<Contender> all_contenders() const {
-    std::vector<Contender> all;
+  std::vector<MethodEntry> all_entries() const {
+    std::vector<MethodEntry> all;
     for (std::size_t i = 0; i < campaign_.methods.size(); ++i)
       all.push_back({campaign_.methods[i], campaign_.methods[i], nullptr, i});
     for (std::size_t i = 0; i < campaign_.variants.size(); ++i)
@@ -176,32 +176,32 @@ class CellMaker {
     return all;
   }
 
-  void check_names(const std::vector<Contender>& contenders) {
+  void check_names(const std::vector<MethodEntry>& entries) {
     std::vector<std::string> names;
-    for (const Contender& contender : contenders) {
-      const std::string path = contender.variant == nullptr
-                                   ? "methods[" + std::to_string(contender.index) + "]"
-                                   : "variants[" + std::to_string(contender.index) + "].name";
-      if (std::find(names.begin(), names.end(), contender.name) != names.end())
+    for (const MethodEntry& entry : entries) {
+      const std::string path = entry.variant == nullptr
+                                   ? "methods[" + std::to_string(entry.index) + "]"
+                                   : "variants[" + std::to_string(entry.index) + "].name";
+      if (std::find(names.begin(), names.end(), entry.name) != names.end())
         refuse(path, "is the name of another method of this campaign");
-      if (contender.variant != nullptr &&
-          (contender.name.empty() || !std::all_of(contender.name.begin(), contender.name.end(), is_plain)))
+      if (entry.variant != nullptr &&
+          (entry.name.empty() || !std::all_of(entry.name.begin(), entry.name.end(), is_plain)))
         refuse(path, "must be letters, digits, dots, dashes and underscores");
-      if (contender.method) check_method(contender);
-      names.push_back(contender.name);
+      if (entry.method) check_method(entry);
+      names.push_back(entry.name);
     }
     if (campaign_.name.empty() || !std::all_of(campaign_.name.begin(), campaign_.name.end(), is_plain))
       refuse("name", "must be letters, digits, dots, dashes and underscores");
     for (std::size_t i = 0; i < campaign_.conditions.size(); ++i) check_condition(i, names);
   }
 
-  void check_method(const Contender& contender) {
-    if (known_.find(*contender.method) != nullptr) return;
-    const bool is_variant = contender.variant != nullptr;
-    const std::string index = "[" + std::to_string(contender.index) + "]";
+  void check_method(const MethodEntry& entry) {
+    if (known_.find(*entry.method) != nullptr) return;
+    const bool is_variant = entry.variant != nullptr;
+    const std::string index = "[" + std::to_string(entry.index) + "]";
     const std::string path = is_variant ? "variants" + index + ".method" : "methods" + index;
     const std::vector<std::string> names = method_names(known_);
-    const std::optional<std::string> meant = closest_name(*contender.method, names);
+    const std::optional<std::string> meant = closest_name(*entry.method, names);
     refuse(path, "must be one of " + choices_of(MethodChoice{kDefaultMethod, known_}) +
                      (meant ? "; did you mean " + *meant + "?" : ""));
   }
@@ -225,11 +225,11 @@ class CellMaker {
   [[nodiscard]] bool runs(const Choice& choice) const {
     if (choice.condition != nullptr && !choice.condition->methods.empty()) {
       const std::vector<std::string>& methods = choice.condition->methods;
-      if (std::find(methods.begin(), methods.end(), choice.contender->name) == methods.end()) return false;
+      if (std::find(methods.begin(), methods.end(), choice.entry->name) == methods.end()) return false;
     }
     const std::vector<sim::TrackingMode>* modes = &campaign_.tracking;
-    if (choice.contender->variant != nullptr && !choice.contender->variant->tracking.empty())
-      modes = &choice.contender->variant->tracking;
+    if (choice.entry->variant != nullptr && !choice.entry->variant->tracking.empty())
+      modes = &choice.entry->variant->tracking;
     // None named: the scenario's own, which `add` takes once, under the first of the two.
     if (modes->empty()) return choice.tracking == sim::TrackingMode::full;
     return std::find(modes->begin(), modes->end(), choice.tracking) != modes->end();
@@ -239,12 +239,12 @@ class CellMaker {
   [[nodiscard]] std::vector<Setting> settings_of(const Choice& choice) const {
     std::vector<Setting> all;
     if (root_.find("seed") != nullptr) all.push_back({"seed=" + to_text(campaign_.seed), place_of("seed")});
-    if (choice.contender->method) all.push_back({"method=" + *choice.contender->method, place_of("methods")});
+    if (choice.entry->method) all.push_back({"method=" + *choice.entry->method, place_of("methods")});
     if (choice.noise)
       all.push_back({std::string{"noise.model="} + enum_name(*choice.noise), place_of("noise")});
     if (choice.level) all.push_back({"noise.level=" + to_text(*choice.level), place_of("levels")});
     const bool named = !campaign_.tracking.empty() ||
-                       (choice.contender->variant != nullptr && !choice.contender->variant->tracking.empty());
+                       (choice.entry->variant != nullptr && !choice.entry->variant->tracking.empty());
     if (named)
       all.push_back({std::string{"trial.tracking="} + enum_name(choice.tracking), place_of("tracking")});
     const auto add_list = [&](const std::vector<std::string>& list, const std::string& path) {
@@ -252,9 +252,8 @@ class CellMaker {
         all.push_back({list[i], place_of(path + "[" + std::to_string(i) + "]")});
     };
     add_list(campaign_.set, "set");
-    if (choice.contender->variant != nullptr)
-      add_list(choice.contender->variant->set,
-               "variants[" + std::to_string(choice.contender->index) + "].set");
+    if (choice.entry->variant != nullptr)
+      add_list(choice.entry->variant->set, "variants[" + std::to_string(choice.entry->index) + "].set");
     if (choice.condition != nullptr)
       add_list(choice.condition->set, "conditions[" + std::to_string(choice.condition_index) + "].set");
     all.insert(all.end(), scene_settings_.begin(), scene_settings_.end());
@@ -265,13 +264,14 @@ class CellMaker {
     if (++asked_ > kMostCells || failed_ == kMostFailed) return;
     try {
       const std::vector<Setting> settings = settings_of(choice);
-      Cell cell = cell_of(choice.scene->file.empty() ? study_from_text("family: " + choice.scene->name + "\n",
-                                                                       choice.scene->name, settings, known_)
-                                                     : read_study(choice.scene->file, settings, known_));
+      Cell cell = cell_of(choice.scene->file.empty()
+                              ? run_configuration_from_text("family: " + choice.scene->name + "\n",
+                                                            choice.scene->name, settings, known_)
+                              : read_run_configuration(choice.scene->file, settings, known_));
       cell.key.family = choice.scene->name;
-      if (!choice.contender->name.empty()) cell.key.method = choice.contender->name;
+      if (!choice.entry->name.empty()) cell.key.method = choice.entry->name;
       if (choice.condition != nullptr) cell.key.condition = choice.condition->name;
-      const std::string problem = trials_problem(cell.study, campaign_.first, campaign_.trials);
+      const std::string problem = trials_problem(cell.config, campaign_.first, campaign_.trials);
       if (!problem.empty() && told_.insert(problem).second) refuse("trials", problem);
       cells_.push_back(std::move(cell));
     } catch (const InputError& error) {
@@ -318,22 +318,22 @@ CampaignPlan read_document(YamlNode root, const std::filesystem::path& folder,
 
 }  // namespace
 
-Cell cell_of(Study study) {
+Cell cell_of(RunConfiguration config) {
   Cell cell;
-  cell.setup = hash_text(identity_text(study));
-  cell.key.family = enum_name(study.family);
-  cell.key.method = study.method.name();
-  cell.key.noise = enum_name(study.simulation.noise.model);
-  cell.key.level = study.simulation.noise.level;
-  cell.key.tracking = enum_name(study.simulation.trial.tracking);
-  cell.key.seed = study.seed;
-  cell.study = std::move(study);
+  cell.setup = hash_text(identity_text(config));
+  cell.key.family = enum_name(config.family);
+  cell.key.method = config.method.name();
+  cell.key.noise = enum_name(config.simulation.noise.model);
+  cell.key.level = config.simulation.noise.level;
+  cell.key.tracking = enum_name(config.simulation.trial.tracking);
+  cell.key.seed = config.seed;
+  cell.config = std::move(config);
   return cell;
 }
 
-CampaignPlan single_cell(Study study, int first, int trials) {
+CampaignPlan single_cell(RunConfiguration config, int first, int trials) {
   CampaignPlan plan;
-  plan.cells.push_back(cell_of(std::move(study)));
+  plan.cells.push_back(cell_of(std::move(config)));
   plan.campaign.name = plan.cells.front().key.family;
   plan.campaign.seed = plan.cells.front().key.seed;
   plan.campaign.first = first;

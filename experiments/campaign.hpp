@@ -1,5 +1,5 @@
 // Campaign files: which methods run on which scenes, under which noise and tracking, how often. Reading one
-// gives the cells of its table, each a study of its own; every cell runs the same trials.
+// gives the cells of its table, each a configuration of its own; every cell runs the same trials.
 #pragma once
 
 #include <array>
@@ -107,11 +107,11 @@ struct Campaign {
   }
 };
 
-/// One row of the table to be: a study under the name of its row.
+/// One row of the table to be: a configuration under the name of its row.
 struct Cell {
   TrialKey key;  ///< of its trials; `method` is the variant's name where it is one
-  Study study;
-  std::string setup;  ///< hash of the study: equal for equal trials
+  RunConfiguration config;
+  std::string setup;  ///< hash of the configuration: equal for equal trials
 };
 
 /// A campaign has at most so many cells, and so many trials in all of them.
@@ -123,10 +123,10 @@ struct CampaignPlan {
   std::vector<Cell> cells;  ///< at least one
 };
 
-/// The cell of a study, under the names of its own family and method.
-[[nodiscard]] Cell cell_of(Study study);
-/// The campaign of a single study: trials `first` to `first + trials - 1` of one cell.
-[[nodiscard]] CampaignPlan single_cell(Study study, int first, int trials);
+/// The cell of a configuration, under the names of its own family and method.
+[[nodiscard]] Cell cell_of(RunConfiguration config);
+/// The campaign of a single configuration: trials `first` to `first + trials - 1` of one cell.
+[[nodiscard]] CampaignPlan single_cell(RunConfiguration config, int first, int trials);
 
 /// Reads a campaign file of at most kMostCells and kMostTrials. `settings` are written over its own keys,
 /// `scene_settings` over every scenario's; `known` are the methods that it may name. Throws InputError with

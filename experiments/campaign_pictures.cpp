@@ -68,7 +68,7 @@ std::vector<StoredPicture> pictures_of(const Campaign& campaign, const Cell& cel
       pictures.push_back({"wheels_" + name + "_wheel" + std::to_string(wheel + 1) + ".svg",
                           wheel_chart(*recorded.recording, cell.key.method, wheel)});
   if (!shows(campaign, CampaignFigure::scenes)) return pictures;
-  const ReplayData data = replay_data(cell.study, recorded);
+  const ReplayData data = replay_data(cell.config, recorded);
   for (const double time : campaign.times)
     pictures.push_back({"scene_" + name + "_" + padded(time) + "s.svg", render_frame_svg(data, time)});
   return pictures;

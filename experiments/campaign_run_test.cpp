@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/run_study_test.hpp"
+#include "experiments/run_configuration_test.hpp"
 #include "experiments/trial_run.hpp"
 #include "spf/math/random_stream.hpp"
 
@@ -18,8 +18,8 @@ namespace spf {
 namespace {
 
 /// Two robots and a walking disc in a small place; everything random is switched on.
-Study small_study(const std::vector<Setting>& settings = {}) {
-  return study_from_text(
+RunConfiguration small_configuration(const std::vector<Setting>& settings = {}) {
+  return run_configuration_from_text(
       "family: explicit\n"
       "robots: [{start: [0, 0], goal: [3, 0]}, {start: [3, 1], goal: [0, 1]}]\n"
       "moving: [{position: [1.5, 3], velocity: [0.1, -0.3], radius: 0.3}]\n"
@@ -40,13 +40,13 @@ void expect_same(const TrialRecord& a, const TrialRecord& b) {
 }
 
 TEST(CampaignRunThreads, GivesTheSameRecordsForAnyNumberOfJobs) {
-  const Study study = small_study();
-  const std::vector<TrialRecord> alone = run_study(study, 10, 5);
+  const RunConfiguration config = small_configuration();
+  const std::vector<TrialRecord> alone = run_configuration(config, 10, 5);
   ASSERT_EQ(alone.size(), 5u);
   for (const int jobs : {2, 4}) {
     CampaignRequest request;
     request.jobs = jobs;
-    const std::vector<TrialRecord> together = run_study(study, 10, 5, request);
+    const std::vector<TrialRecord> together = run_configuration(config, 10, 5, request);
     ASSERT_EQ(together.size(), 5u);
     for (std::size_t i = 0; i < alone.size(); ++i) {
       EXPECT_EQ(alone[i].key.trial, 10 + static_cast<int>(i));
@@ -66,22 +66,22 @@ TEST(CampaignRunThreads, DropsTrialsUnderWayWhenToldToStop) {
     request.finished = [&](const TrialRecord&) {
       if (++ended == 2) stop = true;
     };
-    const std::vector<TrialRecord> kept = run_study(small_study(), 0, 100, request);
+    const std::vector<TrialRecord> kept = run_configuration(small_configuration(), 0, 100, request);
     EXPECT_EQ(kept.size(), static_cast<std::size_t>(ended));
     EXPECT_LT(ended, 3 + jobs);  // the second, and at most what the other threads were just ending
   }
 }
 
 TEST(CampaignRun, NamesTheTrialThatCannotRun) {
-  Study study = small_study();
-  study.scene.robots[1].start = study.scene.robots[0].start;
+  RunConfiguration config = small_configuration();
+  config.scene.robots[1].start = config.scene.robots[0].start;
   EXPECT_THAT(
-      [&] { (void)run_study(study, 7, 2); },
+      [&] { (void)run_configuration(config, 7, 2); },
       testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("trial 7 of explicit, space_time")));
 }
 
 TEST(TrialRun, RecordingChangesNothing) {
-  const Cell cell = cell_of(small_study());
+  const Cell cell = cell_of(small_configuration());
   TrialOptions options;
   const FinishedTrial plain = run_trial(cell, 3, options);
   options.record = true;
@@ -94,13 +94,13 @@ TEST(TrialRun, RecordingChangesNothing) {
 TEST(TrialRun, StopsWhenToldTo) {
   TrialOptions options;
   options.progress = [](double time) { return time < 0.95; };
-  const FinishedTrial stopped = run_trial(cell_of(small_study()), 0, options);
+  const FinishedTrial stopped = run_trial(cell_of(small_configuration()), 0, options);
   EXPECT_TRUE(stopped.stopped);
   EXPECT_LT(stopped.record.sim_time, 1.5);
 }
 
 TEST(TrialRun, TimesOnlyWithAClock) {
-  const Cell cell = cell_of(small_study());
+  const Cell cell = cell_of(small_configuration());
   const TrialRecord untimed = run_trial(cell, 0).record;
   EXPECT_EQ(untimed.plan_time.count(), 0);
   EXPECT_EQ(untimed.new_plan_time.count(), 0);
@@ -115,8 +115,8 @@ TEST(TrialRun, TimesOnlyWithAClock) {
 }
 
 TEST(TrialRun, SaysWhyATrialFailed) {
-  const TrialRecord late = run_trial(cell_of(small_study({{"trial.time_limit=1"}})), 0).record;
-  EXPECT_EQ(late.outcome, sim::TrialOutcome::overtime);
+  const TrialRecord late = run_trial(cell_of(small_configuration({{"trial.time_limit=1"}})), 0).record;
+  EXPECT_EQ(late.outcome, sim::TrialOutcome::timeout);
   EXPECT_EQ(late.failure.rfind("not home in time: robot 0", 0), 0u) << late.failure;
   EXPECT_FALSE(late.robots[0].arrived);
   ASSERT_TRUE(late.cause.has_value());
@@ -124,7 +124,7 @@ TEST(TrialRun, SaysWhyATrialFailed) {
   EXPECT_EQ(late.cause->stand_reason, "moving");
 
   // A disc that no robot can escape: faster, and as wide as the corridor.
-  const Study doomed = study_from_text(
+  const RunConfiguration doomed = run_configuration_from_text(
       "family: explicit\nrobots: [{start: [0, 0], goal: [9, 0]}]\nborder: {low: [-1, -1], high: [10, 1]}\n"
       "moving: [{position: [8, 0], velocity: [-3, 0], radius: 0.9}]\n",
       "doomed.yaml");
@@ -143,7 +143,7 @@ TEST(TrialRun, SaysWhyATrialFailed) {
 TEST(TrialRun, TellsOfWheelsAndCausesWhatARecordingShows) {
   TrialOptions options;
   options.record = true;
-  const FinishedTrial trial = run_trial(cell_of(small_study({{"trial.time_limit=2"}})), 0, options);
+  const FinishedTrial trial = run_trial(cell_of(small_configuration({{"trial.time_limit=2"}})), 0, options);
   const sim::Recording& recording = *trial.recording;
   double most = 0.0;
   for (const sim::RecordedFrame& frame : recording.frames)
@@ -161,12 +161,12 @@ TEST(TrialRun, TellsOfWheelsAndCausesWhatARecordingShows) {
   ASSERT_NE(last, nullptr);
   EXPECT_EQ(cause.last_plan, to_string(last->outcome));
   EXPECT_EQ(cause.plan_age, trial.record.sim_time - last->time);
-  const FinishedTrial ideal = run_trial(cell_of(small_study({{"trial.tracking=ideal"}})), 0);
+  const FinishedTrial ideal = run_trial(cell_of(small_configuration({{"trial.tracking=ideal"}})), 0);
   EXPECT_TRUE(std::isnan(ideal.record.wheel_share));
 }
 
 TEST(TrialRun, NamesItsTrials) {
-  const Cell cell = cell_of(small_study({{"method=es2"}, {"trial.tracking=ideal"}, {"seed=5"}}));
+  const Cell cell = cell_of(small_configuration({{"method=es2"}, {"trial.tracking=ideal"}, {"seed=5"}}));
   const TrialKey key = run_trial(cell, 7).record.key;
   EXPECT_EQ(key.family, "explicit");
   EXPECT_EQ(key.method, "es2");
@@ -198,13 +198,13 @@ std::string cluttered_corridor(std::uint64_t seed) {
 TEST(TrialRun, CrossesStaticClutterOfHundredsOfDiscs) {
   // Clumps with lanes between them: the middle lane is kept clear in part, so that a way through exists.
   std::string text = cluttered_corridor(4);
-  Study study = study_from_text(text, "clutter.yaml");
-  std::erase_if(study.scene.discs, [](const DiscEntry& disc) {
+  RunConfiguration config = run_configuration_from_text(text, "clutter.yaml");
+  std::erase_if(config.scene.discs, [](const DiscEntry& disc) {
     const double lane = 2.25 + 0.8 * std::sin(0.9 * disc.center.x());
     return std::abs(disc.center.y() - lane) < 0.5;
   });
-  EXPECT_GT(study.scene.discs.size(), 150U);
-  const TrialRecord record = run_trial(cell_of(study), 0).record;
+  EXPECT_GT(config.scene.discs.size(), 150U);
+  const TrialRecord record = run_trial(cell_of(config), 0).record;
   EXPECT_TRUE(record.succeeded()) << record.failure;
 }
 

@@ -27,10 +27,10 @@ TEST(Campaign, CrossesItsAxes) {
   for (const Cell& cell : plan.cells) {
     files.insert(cell_file_name(cell.key));
     setups.insert(cell.setup);
-    EXPECT_EQ(cell.key.method, cell.study.method.name());
-    EXPECT_EQ(cell.key.level, cell.study.simulation.noise.level);
-    EXPECT_EQ(cell.key.noise, enum_name(cell.study.simulation.noise.model));
-    EXPECT_EQ(cell.key.tracking, enum_name(cell.study.simulation.trial.tracking));
+    EXPECT_EQ(cell.key.method, cell.config.method.name());
+    EXPECT_EQ(cell.key.level, cell.config.simulation.noise.level);
+    EXPECT_EQ(cell.key.noise, enum_name(cell.config.simulation.noise.model));
+    EXPECT_EQ(cell.key.tracking, enum_name(cell.config.simulation.trial.tracking));
   }
   EXPECT_EQ(files.size(), plan.cells.size());
   EXPECT_EQ(setups.size(), plan.cells.size());
@@ -39,8 +39,8 @@ TEST(Campaign, CrossesItsAxes) {
 TEST(Campaign, LeavesWhatItDoesNotNameToTheScenario) {
   const CampaignPlan plan = campaign_from_text("name: test\nfamilies: [p8]\n", "test.yaml", ".");
   ASSERT_EQ(plan.cells.size(), 1u);
-  const Study p8 = default_study(SceneFamily{sim::Family::p8}, "space_time");
-  EXPECT_EQ(to_yaml_text(plan.cells[0].study), to_yaml_text(p8));
+  const RunConfiguration p8 = default_run_configuration(SceneFamily{sim::Family::p8}, "space_time");
+  EXPECT_EQ(to_yaml_text(plan.cells[0].config), to_yaml_text(p8));
 }
 
 TEST(Campaign, VariantsAndConditionsSetWhatTheySay) {
@@ -54,12 +54,12 @@ TEST(Campaign, VariantsAndConditionsSetWhatTheySay) {
   EXPECT_EQ(plan.cells[0].key.method, "fast");
   EXPECT_EQ(plan.cells[0].key.condition, "one");
   EXPECT_EQ(plan.cells[0].key.tracking, "ideal");
-  EXPECT_FALSE(plan.cells[0].study.agent.orca.limit_acceleration);
-  EXPECT_EQ(plan.cells[0].study.simulation.pose_noise.position_sigma, 0.5);
+  EXPECT_FALSE(plan.cells[0].config.agent.orca.limit_acceleration);
+  EXPECT_EQ(plan.cells[0].config.simulation.pose_noise.position_sigma, 0.5);
   EXPECT_EQ(plan.cells[1].key.method, "orca");
   EXPECT_EQ(plan.cells[1].key.tracking, "full");
-  EXPECT_TRUE(plan.cells[1].study.agent.orca.limit_acceleration);
-  EXPECT_EQ(plan.cells[1].study.simulation.pose_noise.position_sigma, 0.0);
+  EXPECT_TRUE(plan.cells[1].config.agent.orca.limit_acceleration);
+  EXPECT_EQ(plan.cells[1].config.simulation.pose_noise.position_sigma, 0.0);
 }
 
 TEST(Campaign, ObserversKnowTheNoiseUnlessTold) {
@@ -67,10 +67,10 @@ TEST(Campaign, ObserversKnowTheNoiseUnlessTold) {
       "set: [pose_noise.position_sigma=0.5, pose_noise.heading_sigma=0.01]\n"
       "conditions: [{name: told}, {name: misinformed, set: [agent.tracker.observer.pose_sigma=0.1]}]\n");
   ASSERT_EQ(plan.cells.size(), 2u);
-  const ObserverParameters told = agent_parameters(plan.cells[0].study).tracker.observer;
+  const ObserverParameters told = agent_parameters(plan.cells[0].config).tracker.observer;
   EXPECT_EQ(told.pose_sigma, 0.5);
   EXPECT_EQ(told.heading_sigma, 0.01);
-  EXPECT_EQ(agent_parameters(plan.cells[1].study).tracker.observer.pose_sigma, 0.1);
+  EXPECT_EQ(agent_parameters(plan.cells[1].config).tracker.observer.pose_sigma, 0.1);
 }
 
 TEST(Campaign, WritesItselfSoThatItReadsBack) {

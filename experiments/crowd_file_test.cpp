@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "experiments/result_row.hpp"
-#include "experiments/run_study_test.hpp"
+#include "experiments/run_configuration_test.hpp"
 #include "sim/crowd_generator.hpp"
 #include "spf/testing/source_dir.hpp"
 #include "study/scenario_file.hpp"
@@ -85,7 +85,7 @@ TEST(CrowdFile, WritesWhatItReads) {
 
 std::string refusal_of_ped(const std::vector<Setting>& settings, const std::string& file = kPed) {
   try {
-    static_cast<void>(read_study(file, settings));
+    static_cast<void>(read_run_configuration(file, settings));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -98,30 +98,30 @@ TEST(PedScenario, NamesItsRecordingWherePathsBegin) {
   EXPECT_THAT(refusal_of_ped({{"crowd=crowds/plaza.csv"}}),
               HasSubstr("--set: crowd = crowds/plaza.csv is no file"));
   EXPECT_THAT(refusal_of_ped({{"crowd=" + source_dir()}}), HasSubstr("is not a regular file"));
-  EXPECT_THROW(static_cast<void>(study_from_text("family: ped\n", "bare.yaml")), InputError);
+  EXPECT_THROW(static_cast<void>(run_configuration_from_text("family: ped\n", "bare.yaml")), InputError);
 }
 
 TEST(PedScenario, KnowsItsNumberOfTrials) {
-  const Study study = read_study(kPed);
-  ASSERT_EQ(trial_count(study), 51);
-  EXPECT_EQ(trials_problem(study, 0, 51), "");
-  EXPECT_THAT(trials_problem(study, 50, 2), HasSubstr("51 windows of 60 s: trials 0 to 50"));
-  EXPECT_EQ(trial_count(default_study(SceneFamily{sim::Family::t2}, "orca")), std::nullopt);
+  const RunConfiguration config = read_run_configuration(kPed);
+  ASSERT_EQ(trial_count(config), 51);
+  EXPECT_EQ(trials_problem(config, 0, 51), "");
+  EXPECT_THAT(trials_problem(config, 50, 2), HasSubstr("51 windows of 60 s: trials 0 to 50"));
+  EXPECT_EQ(trial_count(default_run_configuration(SceneFamily{sim::Family::t2}, "orca")), std::nullopt);
 }
 
 TEST(PedScenario, IsRunAgainFromItsResolvedFile) {
-  const Study study = read_study(kPed);
+  const RunConfiguration config = read_run_configuration(kPed);
   const std::string file = testing::TempDir() + "spf_ped_resolved.yaml";
-  const Study again = study_from_text(to_yaml_text(study), file);
-  EXPECT_EQ(identity_text(again), identity_text(study));
-  Study other = study;
-  std::vector<sim::CrowdSample> samples = study.recording->samples();
+  const RunConfiguration again = run_configuration_from_text(to_yaml_text(config), file);
+  EXPECT_EQ(identity_text(again), identity_text(config));
+  RunConfiguration other = config;
+  std::vector<sim::CrowdSample> samples = config.recording->samples();
   samples.back().position_world.x() += 0.001;
   other.recording = std::make_shared<const sim::CrowdRecording>(samples);
-  EXPECT_NE(identity_text(other), identity_text(study));
-  other = study;
+  EXPECT_NE(identity_text(other), identity_text(config));
+  other = config;
   other.crowd = "/elsewhere/plaza.csv";
-  EXPECT_EQ(identity_text(other), identity_text(study));
+  EXPECT_EQ(identity_text(other), identity_text(config));
 }
 
 /// The contract of names, and that crossings, not trials, are counted.
@@ -148,11 +148,11 @@ void expect_sound(const std::vector<TrialRecord>& records, int robots) {
 }
 
 TEST(PedScenario, CountsCrossings) {
-  expect_sound(run_study(read_study(kPed), 0, 2), 4);
+  expect_sound(run_configuration(read_run_configuration(kPed), 0, 2), 4);
   // Another family writes none of it.
-  Study study = read_study(source_dir() + "/scenarios/swap.yaml");
-  study.layout.robots = 2;
-  EXPECT_EQ(to_json_line(result_row(run_study(study, 0, 1))).find("crossings"), std::string::npos);
+  RunConfiguration config = read_run_configuration(source_dir() + "/scenarios/swap.yaml");
+  config.layout.robots = 2;
+  EXPECT_EQ(to_json_line(result_row(run_configuration(config, 0, 1))).find("crossings"), std::string::npos);
 }
 
 TEST(PedScenario, RunsOnRecordings) {
@@ -163,8 +163,8 @@ TEST(PedScenario, RunsOnRecordings) {
   for (const auto& entry : std::filesystem::directory_iterator{std::filesystem::path{data} / "pedestrians"}) {
     if (entry.path().extension() != ".csv") continue;
     SCOPED_TRACE(entry.path());
-    const Study study = read_study(kPed, {{"crowd=" + entry.path().string()}});
-    expect_sound(run_study(study, trial_count(study).value() - 1, 1), 4);
+    const RunConfiguration config = read_run_configuration(kPed, {{"crowd=" + entry.path().string()}});
+    expect_sound(run_configuration(config, trial_count(config).value() - 1, 1), 4);
     ++seen;
   }
   EXPECT_GT(seen, 0);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/run_study_test.hpp"
+#include "experiments/run_configuration_test.hpp"
 #include "spf/testing/source_dir.hpp"
 #include "study/scenario_file.hpp"
 
@@ -95,9 +95,9 @@ struct Tally {
   }
 };
 
-void run_until(int wanted, const Study& study, Tally& tally) {
+void run_until(int wanted, const RunConfiguration& config, Tally& tally) {
   while (tally.of < wanted) {
-    for (const TrialRecord& record : run_study(study, tally.trials, 1)) tally.add(record);
+    for (const TrialRecord& record : run_configuration(config, tally.trials, 1)) tally.add(record);
   }
 }
 
@@ -105,10 +105,11 @@ class FleetGuardSlow : public testing::TestWithParam<FleetGuard> {};
 
 TEST_P(FleetGuardSlow, ArrivesAsOftenAndAsSoonAsItDid) {
   const FleetGuard& guard = GetParam();
-  const Study study = read_study(source_dir() + "/scenarios/" + guard.scenario + ".yaml", guard.settings);
+  const RunConfiguration config =
+      read_run_configuration(source_dir() + "/scenarios/" + guard.scenario + ".yaml", guard.settings);
   Tally tally;
-  run_until(guard.first, study, tally);
-  if (tally.succeeded < tally.of) run_until(guard.all, study, tally);
+  run_until(guard.first, config, tally);
+  if (tally.succeeded < tally.of) run_until(guard.all, config, tally);
   if (tally.succeeded < tally.of) {
     EXPECT_GE(tally.succeeded, guard.least) << "of " << tally.of;
   }

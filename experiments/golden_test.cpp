@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/run_study_test.hpp"
+#include "experiments/run_configuration_test.hpp"
 #include "parallel/worker_pool.hpp"
 #include "report/table.hpp"
 #include "spf/team/method_table.hpp"
@@ -172,10 +172,11 @@ TEST_P(GoldenSlow, BehaviourIsAsRecorded) {
   for (const Method& method : methods.all()) {
     std::vector<Setting> settings = GetParam().settings;
     settings.push_back({"method=" + method.name});
-    const Study study = read_study(source_dir() + "/scenarios/" + GetParam().family + ".yaml", settings);
+    const RunConfiguration config =
+        read_run_configuration(source_dir() + "/scenarios/" + GetParam().family + ".yaml", settings);
     CampaignRequest request;
     request.jobs = thread_count(renewed_file() != nullptr ? 0 : 1);
-    const GoldenRow row = row_of(run_study(study, 0, GetParam().trials, request));
+    const GoldenRow row = row_of(run_configuration(config, 0, GetParam().trials, request));
     rows_.push_back(row);
     const std::string changed = difference(golden, row, platform());
     if (!changed.empty()) differences += changed + "\n";

@@ -32,7 +32,7 @@ Table table_of(const std::vector<ParameterRow>& rows) {
 
 /// What differs. With the same method, agents differ in what follows their robot alone: that goes without
 /// saying.
-std::string changes_text(const Study& base, const Study& changed) {
+std::string changes_text(const RunConfiguration& base, const RunConfiguration& changed) {
   const bool same_method = base.method == changed.method;
   std::string text;
   for (const ParameterRow& row : differences(base, changed)) {
@@ -46,16 +46,18 @@ std::string changes_text(const Study& base, const Study& changed) {
 
 std::string presets() {
   const MethodChoice standard;
-  const Study base = default_study(kShownFamily, standard);
+  const RunConfiguration base = default_run_configuration(kShownFamily, standard);
   Table methods{{{"method", Alignment::left}, {"what", Alignment::left}, {"sets", Alignment::left}}};
   for (const Method& method : standard.table().all())
     if (method.name != standard.name())
-      methods.add_row({"`" + method.name + "`", method.what,
-                       changes_text(base, default_study(kShownFamily, MethodChoice{method.name}))});
+      methods.add_row(
+          {"`" + method.name + "`", method.what,
+           changes_text(base, default_run_configuration(kShownFamily, MethodChoice{method.name}))});
   Table families{{{"family", Alignment::left}, {"sets", Alignment::left}}};
   for (const auto& [family, name] : EnumNames<SceneFamily>::values)
     if (family != kShownFamily && family != kExplicitScene)
-      families.add_row({"`" + std::string{name} + "`", changes_text(base, default_study(family, standard))});
+      families.add_row(
+          {"`" + std::string{name} + "`", changes_text(base, default_run_configuration(family, standard))});
   return "## What a method sets\n\nA method is a planner and a set of parameters. Besides its planner it "
          "sets, compared with `" +
          standard.name() + "`:\n\n" + methods.to_markdown() +
@@ -66,16 +68,16 @@ std::string presets() {
 
 std::vector<ParameterRow> all_parameters() {
   const MethodChoice standard;
-  std::vector<ParameterRow> rows = parameter_rows(default_study(kShownFamily, standard));
+  std::vector<ParameterRow> rows = parameter_rows(default_run_configuration(kShownFamily, standard));
   // Keys of explicit scenes follow those that come before any group.
   std::vector<ParameterRow> of_scene;
   std::map<std::string, bool> known;
   for (const ParameterRow& row : rows) known[row.key] = true;
-  for (ParameterRow& row : parameter_rows(default_study(kExplicitScene, standard))) {
+  for (ParameterRow& row : parameter_rows(default_run_configuration(kExplicitScene, standard))) {
     if (row.key == "robots") row.what += " (family: explicit)";
     if (row.key == "robots" || !known.contains(row.key)) of_scene.push_back(std::move(row));
   }
-  for (const ParameterRow& row : parameter_rows(default_study({sim::Family::ped}, standard)))
+  for (const ParameterRow& row : parameter_rows(default_run_configuration({sim::Family::ped}, standard)))
     if (row.key == "crowd") of_scene.push_back(row);
   for (ParameterRow& row : of_scene)
     if (row.value == to_text(kUnsetPoint)) row.value = "required";
@@ -85,7 +87,7 @@ std::vector<ParameterRow> all_parameters() {
   return rows;
 }
 
-std::vector<ParameterRow> differences(const Study& base, const Study& changed) {
+std::vector<ParameterRow> differences(const RunConfiguration& base, const RunConfiguration& changed) {
   std::map<std::string, std::string> values;
   for (const ParameterRow& row : parameter_rows(base)) values[row.key] = row.value;
   std::vector<ParameterRow> found;

@@ -14,7 +14,8 @@ namespace spf {
 [[nodiscard]] std::vector<ParameterRow> all_parameters();
 
 /// Rows of `changed` whose value differs from that in `base`, or that `base` does not have.
-[[nodiscard]] std::vector<ParameterRow> differences(const Study& base, const Study& changed);
+[[nodiscard]] std::vector<ParameterRow> differences(const RunConfiguration& base,
+                                                    const RunConfiguration& changed);
 
 /// The whole page as Markdown.
 [[nodiscard]] std::string parameter_page();

@@ -65,8 +65,9 @@ void describe_place(ReplayData& data, const sim::Scenario& scenario) {
 // ---- what moves
 // ----------------------------------------------------------------------------------------------------
 
-ReplayObstacleFrame obstacle_frame(const ObstacleState& state, const Study& study, double& threshold) {
-  const ProbabilityField field{state, study.robot.radius, study.agent.field};
+ReplayObstacleFrame obstacle_frame(const ObstacleState& state, const RunConfiguration& config,
+                                   double& threshold) {
+  const ProbabilityField field{state, config.robot.radius, config.agent.field};
   threshold = field.threshold();
   const FieldEllipse outline = field.ellipse(threshold);
   return {point(state.position_world),
@@ -75,21 +76,22 @@ ReplayObstacleFrame obstacle_frame(const ObstacleState& state, const Study& stud
 }
 
 /// Everybody who is there in any frame; where somebody is not there the position is unknown, hence not drawn.
-void describe_movers(ReplayData& data, const sim::Recording& recording, const Study& study) {
+void describe_dynamic_obstacles(ReplayData& data, const sim::Recording& recording,
+                                const RunConfiguration& config) {
   const ReplayObstacleFrame absent{
       {kUnknown, kUnknown}, {kUnknown, kUnknown}, {{kUnknown, kUnknown}, 0.0, 0.0, 0.0}};
-  std::map<int, ReplayObstacle> movers;
+  std::map<int, ReplayObstacle> dynamic_obstacles;
   double threshold = data.field_threshold;
   for (std::size_t k = 0; k < recording.frames.size(); ++k)
-    for (const sim::RecordedMover& mover : recording.frames[k].movers) {
-      ReplayObstacle& obstacle = movers[mover.id];
-      if (obstacle.frames.empty()) obstacle.frames.assign(recording.frames.size(), absent);
-      obstacle.id = mover.id;
-      obstacle.radius = mover.state.radius;
-      obstacle.frames[k] = obstacle_frame(mover.state, study, threshold);
+    for (const sim::RecordedDynamicObstacle& obstacle : recording.frames[k].dynamic_obstacles) {
+      ReplayObstacle& shown = dynamic_obstacles[obstacle.id];
+      if (shown.frames.empty()) shown.frames.assign(recording.frames.size(), absent);
+      shown.id = obstacle.id;
+      shown.radius = obstacle.state.radius;
+      shown.frames[k] = obstacle_frame(obstacle.state, config, threshold);
     }
   data.field_threshold = threshold;
-  for (auto& [id, obstacle] : movers) data.obstacles.push_back(std::move(obstacle));
+  for (auto& [id, obstacle] : dynamic_obstacles) data.obstacles.push_back(std::move(obstacle));
 }
 
 // ---- robots
@@ -136,7 +138,7 @@ ReplayRobotFrame robot_frame(ReplayData& data, const sim::RecordedRobot& robot) 
   frame.state = state_index(data, state_text(robot), kind_of(robot));
   for (int wheel = 0; wheel < 3; ++wheel)
     frame.wheel_speeds[static_cast<std::size_t>(wheel)] = robot.wheel_speeds[wheel];
-  frame.to_obstacle = clearance(robot.to_mover);
+  frame.to_obstacle = clearance(robot.to_dynamic);
   frame.to_peer = clearance(robot.to_peer);
   frame.to_static = clearance(robot.to_static);
   frame.control_time = measured(1e-6 * robot.control_us);
@@ -162,8 +164,8 @@ const char* label_of(Candidate::Kind kind) {
       return "this side";
     case Candidate::Kind::side_b:
       return "the other side";
-    case Candidate::Kind::manoeuvre:
-      return "manoeuvre";
+    case Candidate::Kind::primitive:
+      return "primitive";
     case Candidate::Kind::optimised:
       return "optimised";
     case Candidate::Kind::brake:
@@ -178,7 +180,7 @@ ReplayPlan plan_of(const sim::RecordedPlan& recorded) {
   plan.points = timed_points(recorded.points);
   plan.outcome = to_string(recorded.outcome);
   plan.planning_time = measured(1e-3 * recorded.plan_ms);
-  plan.evaluations = recorded.stats.evaluations + recorded.stats.manoeuvres;
+  plan.evaluations = recorded.stats.evaluations + recorded.stats.primitives;
   for (const sim::RecordedCandidate& other : recorded.candidates) {
     ReplayCandidate candidate;
     candidate.label = label_of(other.kind);
@@ -280,14 +282,14 @@ void describe_outcome(ReplayData& data, const TrialRecord& record) {
 
 }  // namespace
 
-ReplayData replay_data(const Study& study, const FinishedTrial& trial) {
+ReplayData replay_data(const RunConfiguration& config, const FinishedTrial& trial) {
   const sim::Recording& recording = *trial.recording;
   ReplayData data;
   data.states.clear();
   data.frame_interval = recording.frame_interval;
   describe_outcome(data, trial.record);
   describe_place(data, recording.scenario);
-  describe_movers(data, recording, study);
+  describe_dynamic_obstacles(data, recording, config);
   describe_robots(data, recording);
   for (const sim::RecordedEvent& event : recording.events) data.events.push_back(event_of(event));
   std::stable_sort(data.events.begin(), data.events.end(),
@@ -304,7 +306,7 @@ std::optional<ReplayPage> replay_page(const Cell& cell, const TrialRecord& recor
   options.progress = [&stop](double) { return !stop(); };
   const FinishedTrial trial = run_trial(cell, record.key.trial, options);
   if (trial.stopped) return std::nullopt;
-  return ReplayPage{render_replay(replay_data(cell.study, trial)), trial.record.digest != record.digest};
+  return ReplayPage{render_replay(replay_data(cell.config, trial)), trial.record.digest != record.digest};
 }
 
 }  // namespace spf

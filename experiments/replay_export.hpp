@@ -6,8 +6,8 @@
 
 namespace spf {
 
-/// Requires a trial that was recorded by run_trial with the same study.
-[[nodiscard]] ReplayData replay_data(const Study& study, const FinishedTrial& trial);
+/// Requires a trial that was recorded by run_trial with the same config.
+[[nodiscard]] ReplayData replay_data(const RunConfiguration& config, const FinishedTrial& trial);
 
 /// The replay page of a trial of earlier results, which is run again for it.
 struct ReplayPage {

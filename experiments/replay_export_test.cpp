@@ -10,19 +10,19 @@ namespace spf {
 namespace {
 
 struct Exported {
-  Study study;
+  RunConfiguration config;
   FinishedTrial trial;
   ReplayData data;
 };
 
 Exported exported(const std::string& scene) {
-  Exported result{study_from_text("family: explicit\n" + scene, "scene.yaml"), {}, {}};
+  Exported result{run_configuration_from_text("family: explicit\n" + scene, "scene.yaml"), {}, {}};
   TrialOptions options;
   options.record = true;
   double seconds = 0.0;
   options.clock = [&seconds] { return seconds += 1e-6; };
-  result.trial = run_trial(cell_of(result.study), 0, options);
-  result.data = replay_data(result.study, result.trial);
+  result.trial = run_trial(cell_of(result.config), 0, options);
+  result.data = replay_data(result.config, result.trial);
   return result;
 }
 
@@ -35,7 +35,7 @@ constexpr const char* kScene =
     "sensing: {map: sensed}\n";
 
 TEST(ReplayExport, KeepsTheTruthOfEveryFrame) {
-  const auto [study, trial, data] = exported(kScene);
+  const auto [config, trial, data] = exported(kScene);
   EXPECT_NO_THROW(require_consistent(data));
   const sim::Recording& recording = *trial.recording;
   ASSERT_EQ(data.robots.size(), 2u);
@@ -46,7 +46,8 @@ TEST(ReplayExport, KeepsTheTruthOfEveryFrame) {
       EXPECT_EQ(data.robots[i].frames[k].pose.x, recording.frames[k].robots[i].pose.position_world.x());
       EXPECT_EQ(data.robots[i].frames[k].pose.heading, recording.frames[k].robots[i].pose.heading);
     }
-    EXPECT_EQ(data.obstacles[0].frames[k].position.x, recording.frames[k].movers[0].state.position_world.x());
+    EXPECT_EQ(data.obstacles[0].frames[k].position.x,
+              recording.frames[k].dynamic_obstacles[0].state.position_world.x());
   }
   EXPECT_EQ(data.robots[1].goal.y, 2.0);
   EXPECT_EQ(data.outcome, enum_name(trial.record.outcome));
@@ -54,12 +55,12 @@ TEST(ReplayExport, KeepsTheTruthOfEveryFrame) {
 
 // The outline must hold the obstacle, grown by the robot, now and after the stretch time.
 TEST(ReplayExport, OutlinesTheFieldAroundTheObstacle) {
-  const auto [study, trial, data] = exported(kScene);
+  const auto [config, trial, data] = exported(kScene);
   const ReplayObstacle& obstacle = data.obstacles[0];
   EXPECT_EQ(obstacle.radius, 0.35);
   for (const ReplayObstacleFrame& frame : obstacle.frames) {
     EXPECT_GE(frame.field.half_axis_long, frame.field.half_axis_short);
-    EXPECT_GE(frame.field.half_axis_short, obstacle.radius + study.robot.radius - 1e-9);  // rounding
+    EXPECT_GE(frame.field.half_axis_short, obstacle.radius + config.robot.radius - 1e-9);  // rounding
     const double ahead = (frame.field.center.x - frame.position.x) * frame.velocity.x +
                          (frame.field.center.y - frame.position.y) * frame.velocity.y;
     EXPECT_GE(ahead, 0.0);
@@ -67,7 +68,7 @@ TEST(ReplayExport, OutlinesTheFieldAroundTheObstacle) {
 }
 
 TEST(ReplayExport, DrawsEverythingThatStandsStill) {
-  const auto [study, trial, data] = exported(kScene);
+  const auto [config, trial, data] = exported(kScene);
   ASSERT_EQ(data.discs.size(), 1u);
   EXPECT_EQ(data.discs[0].radius, 0.3);
   ASSERT_GE(data.boxes.size(), 3u);  // the box, the slanted wall in pieces, the straight wall in one
@@ -80,13 +81,13 @@ TEST(ReplayExport, DrawsEverythingThatStandsStill) {
 }
 
 TEST(ReplayExport, ShowsPlansTimesAndMaps) {
-  const auto [study, trial, data] = exported(kScene);
+  const auto [config, trial, data] = exported(kScene);
   for (const ReplayRobot& robot : data.robots) {
     ASSERT_FALSE(robot.plans.empty());
     EXPECT_GT(robot.plans.front().planning_time, 0.0);
     EXPECT_FALSE(robot.plans.front().candidates.empty());
     EXPECT_FALSE(robot.cells.empty());  // the map is sensed
-    EXPECT_EQ(robot.wheel_speed_limit, study.robot.max_wheel_speed);
+    EXPECT_EQ(robot.wheel_speed_limit, config.robot.max_wheel_speed);
     for (std::size_t k = 1; k < robot.plans.size(); ++k)
       EXPECT_GE(robot.plans[k].time, robot.plans[k - 1].time);
   }

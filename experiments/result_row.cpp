@@ -34,7 +34,7 @@ void count_outcome(ResultRow& row, sim::TrialOutcome outcome) {
     case sim::TrialOutcome::success:
       ++row.success;
       return;
-    case sim::TrialOutcome::overtime:
+    case sim::TrialOutcome::timeout:
       ++row.overtime;
       return;
     case sim::TrialOutcome::collision:

@@ -48,7 +48,7 @@ TrialRecord trial(int number, Outcome outcome, double distance, double time) {
 
 std::vector<TrialRecord> some_trials() {
   return {trial(0, Outcome::success, 1.0, 30.0), trial(1, Outcome::collision, 0.6, 12.0),
-          trial(2, Outcome::success, 1.4, 32.0), trial(3, Outcome::overtime, 0.9, 120.0)};
+          trial(2, Outcome::success, 1.4, 32.0), trial(3, Outcome::timeout, 0.9, 120.0)};
 }
 
 TEST(ResultRow, CondensesTrials) {

@@ -149,7 +149,7 @@ struct CrossingRecord {
 struct TrialRecord {
   TrialKey key;
   std::string setup;  ///< hash over all settings of the trial but its number
-  sim::TrialOutcome outcome = sim::TrialOutcome::overtime;
+  sim::TrialOutcome outcome = sim::TrialOutcome::timeout;
   std::optional<ContactRecord> contact;
   int contacts = 0;                        ///< in all, where contacts do not end a trial
   int hits_while_standing = 0;             ///< by recorded people who do not react

@@ -32,7 +32,7 @@ std::string contact_text(const ContactRecord& contact) {
 }
 
 /// Robots that did not arrive, each with what it stood for longest.
-std::string overtime_text(const sim::TrialResult& result) {
+std::string timeout_text(const sim::TrialResult& result) {
   std::string text;
   for (std::size_t i = 0; i < result.robots.size(); ++i) {
     const sim::RobotResult& robot = result.robots[i];
@@ -85,17 +85,17 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
   if (!result.contacts.empty()) record.contact = contact_of(result.contacts.front());
   record.contacts = static_cast<int>(result.contacts.size());
   record.hits_while_standing = static_cast<int>(result.hits_while_standing.size());
-  if (cell.study.recording) record.crossing = crossing_of(result);
+  if (cell.config.recording) record.crossing = crossing_of(result);
   record.sim_time = result.sim_seconds;
   record.dynamic_distance = finite_or_unknown(result.dynamic_distance);
   record.dynamic_clearance = finite_or_unknown(result.dynamic_clearance);
   for (const sim::RobotResult& robot : result.robots) record.robots.push_back(robot_record(robot));
   if (result.outcome == sim::TrialOutcome::collision && record.contact)
     record.failure = contact_text(*record.contact);
-  if (result.outcome == sim::TrialOutcome::overtime) record.failure = overtime_text(result);
+  if (result.outcome == sim::TrialOutcome::timeout) record.failure = timeout_text(result);
   record.cause = watch.cause_of(result);
-  if (cell.study.simulation.trial.tracking == sim::TrackingMode::full)  // else nothing drives wheels
-    record.wheel_share = watch.largest_wheel_speed() / cell.study.robot.max_wheel_speed;
+  if (cell.config.simulation.trial.tracking == sim::TrackingMode::full)  // else nothing drives wheels
+    record.wheel_share = watch.largest_wheel_speed() / cell.config.robot.max_wheel_speed;
   record.digest = hexadecimal(result.digest);
   for (const float duration : result.plan_ms) record.plan_time.add(1e-3 * static_cast<double>(duration));
   for (const float duration : result.control_us)
@@ -110,7 +110,7 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
 
 FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options) {
   FinishedTrial finished;
-  const sim::Scenario scenario = make_trial(cell.study, trial);
+  const sim::Scenario scenario = make_trial(cell.config, trial);
   TrialWatch watch{scenario.robots.size()};
   sim::SimulationOptions simulation;
   simulation.record = options.record;
@@ -123,7 +123,7 @@ FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options
     simulation.for_each = [&robots](std::size_t count, const std::function<void(std::size_t)>& job) {
       robots.for_each(count, job);
     };
-  sim::TrialResult result = sim::Simulation{scenario, agent_parameters(cell.study), simulation}.run();
+  sim::TrialResult result = sim::Simulation{scenario, agent_parameters(cell.config), simulation}.run();
   result.trial = trial;
   finished.record = record_of(cell, result, watch);
   finished.recording = result.recording;

@@ -17,7 +17,7 @@ void TrialWatch::planned(double time, const RobotAgent& agent, double plan_ms) {
   Robot& robot = robots_[static_cast<std::size_t>(agent.robot_id())];
   robot.plan = plan.outcome;
   robot.plan_time = time;
-  if (!(plan_ms > 0.0) || plan.stats.optimiser_calls + plan.stats.manoeuvres == 0) return;
+  if (!(plan_ms > 0.0) || plan.stats.optimiser_calls + plan.stats.primitives == 0) return;
   new_plan_time_.add(1e-3 * plan_ms);
   if (plan.stats.optimiser_calls > 0) optimiser_time_.add(1e-3 * plan_ms / plan.stats.optimiser_calls);
 }
@@ -43,8 +43,7 @@ CauseRecord TrialWatch::cause(int robot, double time) const {
     cause.plan_age = std::max(0.0, time - known.plan_time);
   }
   if (known.status) {
-    cause.stand_reason =
-        known.status->reason == StopCause::none ? "moving" : to_string(known.status->reason);
+    cause.stand_reason = known.status->reason == StopCause::none ? "moving" : to_string(known.status->reason);
     cause.culprit = known.status->culprit;
   }
   return cause;

@@ -46,7 +46,7 @@ void tell_map(fuzz::Bytes bytes) {
   for (int sweep = 0; sweep < 4; ++sweep) {
     const RangeScan scan = scan_of(bytes);
     const Pose2 pose = pose_of(bytes);
-    const IgnoredDisc disc{bytes.pair(), bytes.number()};
+    const MaskedDisc disc{bytes.pair(), bytes.number()};
     map.integrate(scan, pose, {disc});
     const double distance = map.distance(pose.position_world);
     fuzz::require(std::isfinite(distance) && distance <= map.max_distance(), "a map gives distances");

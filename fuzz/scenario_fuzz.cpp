@@ -1,4 +1,5 @@
-// Scenario files: refused by InputError, or read to a study that writes itself and can make its trials.
+// Scenario files: refused by InputError, or read to a configuration that writes itself and can make its
+// trials.
 #include <stdexcept>
 
 #include "fuzz/fuzz_input.hpp"
@@ -7,11 +8,11 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace spf;
   try {
-    const Study study = study_from_text(fuzz::text_of(data, size), "fuzz.yaml");
-    const Study again = study_from_text(to_yaml_text(study), "again.yaml");
-    fuzz::require(to_yaml_text(again) == to_yaml_text(study), "a study reads back as it was written");
+    const RunConfiguration config = run_configuration_from_text(fuzz::text_of(data, size), "fuzz.yaml");
+    const RunConfiguration again = run_configuration_from_text(to_yaml_text(config), "again.yaml");
+    fuzz::require(to_yaml_text(again) == to_yaml_text(config), "a config reads back as it was written");
     try {
-      static_cast<void>(make_trial(study, 1));
+      static_cast<void>(make_trial(config, 1));
     } catch (const std::runtime_error&) {  // no scene for this layout
     }
   } catch (const InputError& error) {

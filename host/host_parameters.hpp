@@ -34,7 +34,7 @@ struct HostParameters {
           "without a word of the planner for this long the tracker brakes");
     visit("command_silence", self.command_silence, "s", Range{0.05, 10.0},
           "without a word of what the wheels are told for this long they are taken to stand");
-    visit("largest_plan_error", self.largest_plan_error, kMetresByWay, Range{0.05, 100.0},
+    visit("largest_plan_error", self.largest_plan_error, kMetresByStopping, Range{0.05, 100.0},
           "farther from its plan the tracker stands and waits for a new one");
     visit("jump_distance", self.jump_distance, kMetresBySize, Range{0.01, 1000.0},
           "a pose farther from where the robot can be is a jump");
@@ -54,7 +54,7 @@ struct HostParameters {
           "messages of peers that are less sure of their place are malformed");
     visit("largest_peer_speed", self.largest_peer_speed, "m/s", Range{0.1, 100.0},
           "messages of faster peers are malformed");
-    visit("grid_size", self.grid_size, kMetresByWay, Range{1.0, 1000.0},
+    visit("grid_size", self.grid_size, kMetresByStopping, Range{1.0, 1000.0},
           "side of the sensed map, around the start, where no map is given");
     visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
           "node distance of the map; a given one with coarser cells keeps those");

@@ -9,7 +9,7 @@ void AgentMeter::planned(int robot, const PlanResult& plan) {
   result.optimiser_calls += plan.stats.optimiser_calls;
   result.inner_iterations += plan.stats.inner_iterations;
   result.evaluations += plan.stats.evaluations;
-  result.manoeuvres += plan.stats.manoeuvres;
+  result.primitives += plan.stats.primitives;
 }
 
 void AgentMeter::stood(int robot, const AgentStatus& status, double duration) {
@@ -26,7 +26,7 @@ void AgentMeter::finish(TrialResult& result) const {
     to.optimiser_calls = from.optimiser_calls;
     to.inner_iterations = from.inner_iterations;
     to.evaluations = from.evaluations;
-    to.manoeuvres = from.manoeuvres;
+    to.primitives = from.primitives;
     to.stood = from.stood;
   }
 }

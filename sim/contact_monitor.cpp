@@ -34,13 +34,13 @@ ContactMonitor::ContactMonitor(const Scenario& scenario)
       peer_clearance_{dynamic_distance_} {}
 
 void ContactMonitor::check(const Tick& tick, const std::vector<RobotTruth>& robots,
-                           const std::vector<Mover>& movers) {
+                           const std::vector<DynamicObstacle>& dynamic_obstacles) {
   const auto first_new = static_cast<std::ptrdiff_t>(contacts_.size());
-  forgive_newcomers(robots, movers);
+  forgive_newcomers(robots, dynamic_obstacles);
   note_standing(tick.dt, robots);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (robots[i].gone) continue;
-    check_movers(tick, i, robots[i], movers);
+    check_dynamic_obstacles(tick, i, robots[i], dynamic_obstacles);
     if (!robots[i].wrecked) check_static(tick, i, robots[i]);
   }
   check_peers(tick, robots);
@@ -58,29 +58,29 @@ Contact ContactMonitor::contact_of(const Tick& tick, double share, std::size_t r
   return contact;
 }
 
-void ContactMonitor::check_movers(const Tick& tick, std::size_t robot, const RobotTruth& truth,
-                                  const std::vector<Mover>& movers) {
-  for (const Mover& mover : movers) {
-    const Motion motion = part_of(mover.motion, tick.share_from, tick.share_to);
-    const double sum = robot_radius_ + mover.radius;
+void ContactMonitor::check_dynamic_obstacles(const Tick& tick, std::size_t robot, const RobotTruth& truth,
+                                             const std::vector<DynamicObstacle>& dynamic_obstacles) {
+  for (const DynamicObstacle& obstacle : dynamic_obstacles) {
+    const Motion motion = part_of(obstacle.motion, tick.share_from, tick.share_to);
+    const double sum = robot_radius_ + obstacle.radius;
     const double distance = swept_distance(truth.motion, motion);
     if (!truth.arrived && !truth.wrecked) {
       dynamic_distance_ = std::min(dynamic_distance_, distance);
       dynamic_clearance_ = std::min(dynamic_clearance_, distance - sum);
     }
-    const std::pair<int, int> pair{static_cast<int>(robot), mover.id};
+    const std::pair<int, int> pair{static_cast<int>(robot), obstacle.id};
     if (distance >= sum) {
-      touching_movers_.erase(pair);
+      touching_obstacles_.erase(pair);
       continue;
     }
-    if (truth.wrecked || (mover.person && forgiven_.count(pair) > 0)) continue;
-    if (!touching_movers_.insert(pair).second) continue;
+    if (truth.wrecked || (obstacle.person && forgiven_.count(pair) > 0)) continue;
+    if (!touching_obstacles_.insert(pair).second) continue;
     Contact contact = contact_of(tick, first_within(truth.motion, motion, sum).value_or(0.0), robot, truth);
-    contact.other = mover.id;
-    contact.other_speed = length(mover.motion) / Movers::kStep;
-    contact.with = mover.person ? ContactWith::person : ContactWith::moving;
+    contact.other = obstacle.id;
+    contact.other_speed = length(obstacle.motion) / DynamicObstacles::kStep;
+    contact.with = obstacle.person ? ContactWith::person : ContactWith::moving;
     const bool stood = standing_time_[robot] >= kStandingTime;
-    (mover.person && stood ? hits_while_standing_ : contacts_).push_back(contact);
+    (obstacle.person && stood ? hits_while_standing_ : contacts_).push_back(contact);
   }
 }
 
@@ -157,18 +157,18 @@ void ContactMonitor::check_pair(const Tick& tick, const std::vector<RobotTruth>&
 }
 
 void ContactMonitor::forgive_newcomers(const std::vector<RobotTruth>& robots,
-                                       const std::vector<Mover>& movers) {
+                                       const std::vector<DynamicObstacle>& dynamic_obstacles) {
   bool people = false;
-  for (const Mover& mover : movers) people = people || mover.person;
+  for (const DynamicObstacle& obstacle : dynamic_obstacles) people = people || obstacle.person;
   if (!people && people_present_.empty()) return;
   std::set<int> present;
-  for (const Mover& mover : movers) {
-    if (!mover.person) continue;
-    present.insert(mover.id);
-    const bool is_new = people_present_.count(mover.id) == 0;
+  for (const DynamicObstacle& obstacle : dynamic_obstacles) {
+    if (!obstacle.person) continue;
+    present.insert(obstacle.id);
+    const bool is_new = people_present_.count(obstacle.id) == 0;
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      const bool near = (robots[i].motion.from - mover.motion.from).norm() < kForgivenDistance;
-      const std::pair<int, int> pair{static_cast<int>(i), mover.id};
+      const bool near = (robots[i].motion.from - obstacle.motion.from).norm() < kForgivenDistance;
+      const std::pair<int, int> pair{static_cast<int>(i), obstacle.id};
       if (is_new && near) forgiven_.insert(pair);
       if (!near) forgiven_.erase(pair);
     }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/contact.hpp"
-#include "sim/movers.hpp"
+#include "sim/dynamic_obstacles.hpp"
 #include "sim/robot_truth.hpp"
 
 namespace spf::sim {
@@ -16,15 +16,17 @@ class ContactMonitor {
  public:
   explicit ContactMonitor(const Scenario& scenario);
 
-  /// One tick, from `time` to time + dt [s]: the movers go from share_from to share_to of their step, the
-  /// robots along their `motion`. Contacts found are appended to contacts(), by time within the tick.
+  /// One tick, from `time` to time + dt [s]: the dynamic obstacles go from share_from to share_to of their
+  /// step, the robots along their `motion`. Contacts found are appended to contacts(), by time within the
+  /// tick.
   struct Tick {
     double time;
     double dt;
     double share_from;
     double share_to;
   };
-  void check(const Tick& tick, const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
+  void check(const Tick& tick, const std::vector<RobotTruth>& robots,
+             const std::vector<DynamicObstacle>& dynamic_obstacles);
 
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
   /// Recorded people who walked into a robot that had stood still for a second; they do not react, so it is
@@ -48,13 +50,14 @@ class ContactMonitor {
   [[nodiscard]] const StaticShapes& shapes() const { return shapes_; }
 
  private:
-  void check_movers(const Tick& tick, std::size_t robot, const RobotTruth& truth,
-                    const std::vector<Mover>& movers);
+  void check_dynamic_obstacles(const Tick& tick, std::size_t robot, const RobotTruth& truth,
+                               const std::vector<DynamicObstacle>& dynamic_obstacles);
   void check_static(const Tick& tick, std::size_t robot, const RobotTruth& truth);
   void check_peers(const Tick& tick, const std::vector<RobotTruth>& robots);
   void check_pair(const Tick& tick, const std::vector<RobotTruth>& robots, std::size_t i, std::size_t j);
   void refresh_pairs(const std::vector<RobotTruth>& robots);
-  void forgive_newcomers(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
+  void forgive_newcomers(const std::vector<RobotTruth>& robots,
+                         const std::vector<DynamicObstacle>& dynamic_obstacles);
   void note_standing(double dt, const std::vector<RobotTruth>& robots);
   [[nodiscard]] Contact contact_of(const Tick& tick, double share, std::size_t robot,
                                    const RobotTruth& truth) const;
@@ -78,12 +81,12 @@ class ContactMonitor {
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // that may come near before centers_ are too old
   std::vector<Contact> contacts_;
   std::vector<Contact> hits_while_standing_;
-  std::vector<bool> touching_static_;              // by robot: counted once while it lasts
-  std::vector<double> standing_time_;              // [s] by robot
-  std::set<int> people_present_;                   // ids in the last tick
-  std::set<std::pair<int, int>> forgiven_;         // (robot, person): appeared too near, not yet gone
-  std::set<std::pair<int, int>> touching_movers_;  // (robot, mover): counted once while it lasts
-  std::set<std::pair<int, int>> touching_pairs_;   // robots that have touched: counted once
+  std::vector<bool> touching_static_;                 // by robot: counted once while it lasts
+  std::vector<double> standing_time_;                 // [s] by robot
+  std::set<int> people_present_;                      // ids in the last tick
+  std::set<std::pair<int, int>> forgiven_;            // (robot, person): appeared too near, not yet gone
+  std::set<std::pair<int, int>> touching_obstacles_;  // (robot, obstacle): counted once while it lasts
+  std::set<std::pair<int, int>> touching_pairs_;      // robots that have touched: counted once
   double dynamic_distance_;
   double dynamic_clearance_;
   double peer_clearance_;

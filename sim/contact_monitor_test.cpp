@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDt = 0.005;  // [s]
 
-/// A trial in which robots and movers are put where the test wants them, tick by tick.
+/// A trial in which robots and dynamic obstacles are put where the test wants them, tick by tick.
 class Stage {
  public:
   explicit Stage(std::size_t robots) : robots_(robots) { scenario_.robots.resize(robots); }
@@ -23,23 +23,25 @@ class Stage {
     robots_[robot].motion = {from, to};
     robots_[robot].velocity_world = (to - from) / kDt;
   }
-  void put_person(int id, const Eigen::Vector2d& at) { movers_ = {{id, true, 0.25, {at, at}, {0.0, 0.0}}}; }
-  void put_disc(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-    movers_ = {{0, false, 0.4, {from, to}, (to - from) / Movers::kStep}};
+  void put_person(int id, const Eigen::Vector2d& at) {
+    dynamic_obstacles_ = {{id, true, 0.25, {at, at}, {0.0, 0.0}}};
   }
-  void clear_movers() { movers_.clear(); }
+  void put_disc(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    dynamic_obstacles_ = {{0, false, 0.4, {from, to}, (to - from) / DynamicObstacles::kStep}};
+  }
+  void clear_movers() { dynamic_obstacles_.clear(); }
   RobotTruth& robot(std::size_t index) { return robots_[index]; }
   ContactMonitor& run(double seconds = kDt, double share_from = 0.0) {
     const int ticks = static_cast<int>(std::lround(seconds / kDt));
     for (int i = 0; i < ticks; ++i, time_ += kDt)
-      monitor_.check({time_, kDt, share_from, share_from + 0.05}, robots_, movers_);
+      monitor_.check({time_, kDt, share_from, share_from + 0.05}, robots_, dynamic_obstacles_);
     return monitor_;
   }
 
  private:
   Scenario scenario_;
   std::vector<RobotTruth> robots_;
-  std::vector<Mover> movers_;
+  std::vector<DynamicObstacle> dynamic_obstacles_;
   ContactMonitor monitor_{scenario_with(robots_.size())};
   double time_ = 0.0;
 

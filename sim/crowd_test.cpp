@@ -140,7 +140,7 @@ TEST(PedestrianFamily, LateIsNotInTime) {
   const TrialResult result = Simulation{make_scenario(setup, kDefaultSeed, 0), AgentParameters{}}.run();
   EXPECT_TRUE(result.robots.front().arrived);
   EXPECT_FALSE(result.robots.front().in_time);
-  EXPECT_EQ(result.outcome, TrialOutcome::overtime);
+  EXPECT_EQ(result.outcome, TrialOutcome::timeout);
 }
 
 /// Somebody walks along the way of two robots that see nothing before it is too late; the contact is counted

@@ -188,11 +188,11 @@ bool is_free(const Eigen::Vector2d& place, const std::vector<Eigen::Vector2d>& t
 }
 
 bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
-  constexpr double kGap = 1.0;           // [m] between surfaces of starts, of goals, and around pillars
-  constexpr double kNearGoal = 10.0;     // [m]
-  constexpr double kFarGoal = 30.0;      // [m]
-  constexpr double kPillarRadius = 0.5;  // [m]
-  constexpr double kMargin = 1.0;        // [m] between the square of starts and goals and the border
+  constexpr double kGap = 1.0;               // [m] between surfaces of starts, of goals, and around discs
+  constexpr double kNearGoal = 10.0;         // [m]
+  constexpr double kFarGoal = 30.0;          // [m]
+  constexpr double kStaticDiscRadius = 0.5;  // [m]
+  constexpr double kMargin = 1.0;            // [m] between the square of starts and goals and the border
   const double half = 0.5 * kSidePerRoot * std::sqrt(static_cast<double>(layout.robots));
   const double center_gap = kGap + 2.0 * scenario.robot.radius;
   scenario.border = square(Eigen::Vector2d::Zero(), 2.0 * (half + kMargin));
@@ -214,19 +214,19 @@ bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& 
     if (!placed) return false;
     scenario.robots.push_back(task_between(starts.back(), goals.back()));
   }
-  const double end_gap = kGap + kPillarRadius + scenario.robot.radius;
-  std::vector<Eigen::Vector2d> pillars;
+  const double end_gap = kGap + kStaticDiscRadius + scenario.robot.radius;
+  std::vector<Eigen::Vector2d> discs;
   const int count = static_cast<int>(static_cast<double>(layout.robots) / kRobotsPerPillar);
   for (int i = 0; i < count; ++i) {
     const bool placed = draw_group(1, [&] {
       const Eigen::Vector2d center = draw_point(random, half, half);
       if (!is_free(center, starts, end_gap) || !is_free(center, goals, end_gap)) return false;
-      if (!is_free(center, pillars, kGap + 2.0 * kPillarRadius)) return false;
-      pillars.push_back(center);
+      if (!is_free(center, discs, kGap + 2.0 * kStaticDiscRadius)) return false;
+      discs.push_back(center);
       return true;
     });
     if (!placed) return false;
-    scenario.discs.push_back({pillars.back(), kPillarRadius});
+    scenario.discs.push_back({discs.back(), kStaticDiscRadius});
   }
   return true;
 }

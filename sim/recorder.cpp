@@ -41,10 +41,10 @@ void take_nearer(RecordedClearance& clearance, double distance, int other) {
 void measure_clearances(const TrialFrame& view, std::size_t robot, double radius, RecordedRobot& recorded) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const Eigen::Vector2d& place = recorded.pose.position_world;
-  recorded.to_mover = recorded.to_peer = {kNone, -1};
-  for (const Mover& mover : *view.movers)
-    take_nearer(recorded.to_mover, (mover.motion.at(view.share) - place).norm() - radius - mover.radius,
-                mover.id);
+  recorded.to_dynamic = recorded.to_peer = {kNone, -1};
+  for (const DynamicObstacle& obstacle : *view.dynamic_obstacles)
+    take_nearer(recorded.to_dynamic,
+                (obstacle.motion.at(view.share) - place).norm() - radius - obstacle.radius, obstacle.id);
   for (std::size_t j = 0; j < view.robots->size(); ++j)
     if (j != robot)
       take_nearer(recorded.to_peer, ((*view.robots)[j].pose.position_world - place).norm() - 2.0 * radius,
@@ -95,9 +95,11 @@ void Recorder::frame(const TrialFrame& view) {
     note_cells(view.time, static_cast<int>(i), agent.map());
     frame.robots.push_back(std::move(robot));
   }
-  for (const Mover& mover : *view.movers)
-    frame.movers.push_back(
-        {mover.id, mover.person, {mover.motion.at(view.share), mover.velocity_world, mover.radius}});
+  for (const DynamicObstacle& obstacle : *view.dynamic_obstacles)
+    frame.dynamic_obstacles.push_back(
+        {obstacle.id,
+         obstacle.person,
+         {obstacle.motion.at(view.share), obstacle.velocity_world, obstacle.radius}});
   recording_->frames.push_back(std::move(frame));
 }
 

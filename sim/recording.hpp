@@ -31,12 +31,12 @@ struct RecordedRobot {
   Eigen::Vector3d wheel_commands = Eigen::Vector3d::Zero();  ///< [m/s] as commanded
   AgentStatus status;
   bool wrecked = false;
-  RecordedClearance to_mover, to_peer, to_static;
+  RecordedClearance to_dynamic, to_peer, to_static;
   double control_us = 0.0;  ///< [us] of the last control tick, 0 without a clock
   std::vector<RecordedTrack> tracks;
 };
 
-struct RecordedMover {
+struct RecordedDynamicObstacle {
   int id = 0;
   bool person = false;
   ObstacleState state;
@@ -45,7 +45,7 @@ struct RecordedMover {
 struct RecordedFrame {
   double time = 0.0;  ///< [s]
   std::vector<RecordedRobot> robots;
-  std::vector<RecordedMover> movers;
+  std::vector<RecordedDynamicObstacle> dynamic_obstacles;
 };
 
 struct RecordedPoint {

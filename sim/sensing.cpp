@@ -93,10 +93,11 @@ Detection Sensing::detect(int robot, int id, const Eigen::Vector2d& position, co
 
 void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings,
                          Observation& observation) {
-  for (const Mover& mover : *surroundings.movers) {
-    const Eigen::Vector2d position = mover.motion.at(surroundings.share);
+  for (const DynamicObstacle& obstacle : *surroundings.dynamic_obstacles) {
+    const Eigen::Vector2d position = obstacle.motion.at(surroundings.share);
     if ((position - from).norm() > parameters_.range) continue;
-    observation.detections.push_back(detect(robot, mover.id, position, mover.velocity_world, mover.radius));
+    observation.detections.push_back(
+        detect(robot, obstacle.id, position, obstacle.velocity_world, obstacle.radius));
   }
   const double reach = parameters_.peer_detection_range;
   if (reach <= 0.0) return;
@@ -116,8 +117,8 @@ void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundi
 void Sensing::scan(int robot, const Pose2& truth_world, const Surroundings& surroundings, RangeScan& scan) {
   const Eigen::Vector2d& from = truth_world.position_world;
   seen_.clear();
-  for (const Mover& mover : *surroundings.movers)
-    seen_.push_back({mover.motion.at(surroundings.share), mover.radius});
+  for (const DynamicObstacle& obstacle : *surroundings.dynamic_obstacles)
+    seen_.push_back({obstacle.motion.at(surroundings.share), obstacle.radius});
   if (parameters_.peers_block_beams)
     surroundings.robot_grid->visit(from, parameters_.range + robot_radius_, [&](int peer) {
       if (peer != robot)

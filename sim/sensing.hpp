@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "sim/movers.hpp"
+#include "sim/dynamic_obstacles.hpp"
 #include "sim/range_sensor.hpp"
 #include "sim/uniform_grid.hpp"
 #include "spf/math/random_stream.hpp"
@@ -19,8 +19,8 @@ inline constexpr int kPeerDetectionId = 1'000'000;
 /// The true surroundings at one instant.
 struct Surroundings {
   double time = 0.0;   ///< [s]
-  double share = 0.0;  ///< of the movers' current step, in [0, 1)
-  const std::vector<Mover>* movers = nullptr;
+  double share = 0.0;  ///< of the obstacles' current step, in [0, 1)
+  const std::vector<DynamicObstacle>* dynamic_obstacles = nullptr;
   const std::vector<Eigen::Vector2d>* robots = nullptr;  ///< [m] centres
   const UniformGrid* robot_grid = nullptr;               ///< over `robots`
 };

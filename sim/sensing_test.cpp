@@ -9,10 +9,10 @@
 namespace spf::sim {
 namespace {
 
-/// Robots and movers at rest, ready to be looked at.
+/// Robots and dynamic obstacles at rest, ready to be looked at.
 struct Scene {
   Scenario scenario;
-  std::vector<Mover> movers;
+  std::vector<DynamicObstacle> dynamic_obstacles;
   std::vector<Eigen::Vector2d> robots;
   UniformGrid grid{2.0};
 
@@ -23,12 +23,12 @@ struct Scene {
   }
   void add_mover(int id, double x, double y) {
     const Eigen::Vector2d place{x, y};
-    movers.push_back({id, false, 0.4, {place, place + Eigen::Vector2d{0.1, 0.0}}, {1.0, 0.0}});
+    dynamic_obstacles.push_back({id, false, 0.4, {place, place + Eigen::Vector2d{0.1, 0.0}}, {1.0, 0.0}});
   }
   Observation observe(Sensing& sensing, int robot, double time = 0.0, double share = 0.0) {
     Observation observation;
     const Pose2 pose{robots[static_cast<std::size_t>(robot)], 0.0};
-    sensing.observe(robot, pose, {time, share, &movers, &robots, &grid}, observation);
+    sensing.observe(robot, pose, {time, share, &dynamic_obstacles, &robots, &grid}, observation);
     return observation;
   }
 };
@@ -151,22 +151,22 @@ TEST(Crowd, FollowsTheRecordingBetweenItsSamplesOnly) {
   Scenario scenario;
   scenario.crowd = {{0.0, 4, {0.0, 0.0}}, {0.4, 4, {0.4, 0.0}}, {0.4, 9, {5.0, 5.0}},
                     {0.8, 4, {0.4, 0.8}}, {0.8, 9, {5.0, 5.4}}, {1.2, 9, {5.0, 5.8}}};
-  Movers movers{scenario};
-  movers.advance(0.1);
-  ASSERT_EQ(movers.all().size(), 1U);
-  EXPECT_EQ(movers.all()[0].id, 4);
-  EXPECT_TRUE(movers.all()[0].person);
-  EXPECT_LT((movers.all()[0].motion.to - Eigen::Vector2d{0.2, 0.0}).norm(), 1e-12);
-  movers.advance(0.5);
-  ASSERT_EQ(movers.all().size(), 2U);
-  EXPECT_LT((movers.all()[0].motion.from - Eigen::Vector2d{0.4, 0.2}).norm(), 1e-12);
-  EXPECT_LT((movers.all()[0].velocity_world - Eigen::Vector2d{0.0, 2.0}).norm(), 1e-12);
-  EXPECT_LT((movers.all()[1].motion.to - Eigen::Vector2d{5.0, 5.2}).norm(), 1e-12);
-  movers.advance(0.9);
-  ASSERT_EQ(movers.all().size(), 1U);  // the first has gone
-  EXPECT_EQ(movers.all()[0].id, 9);
-  movers.advance(1.3);
-  EXPECT_TRUE(movers.all().empty());
+  DynamicObstacles dynamic_obstacles{scenario};
+  dynamic_obstacles.advance(0.1);
+  ASSERT_EQ(dynamic_obstacles.all().size(), 1U);
+  EXPECT_EQ(dynamic_obstacles.all()[0].id, 4);
+  EXPECT_TRUE(dynamic_obstacles.all()[0].person);
+  EXPECT_LT((dynamic_obstacles.all()[0].motion.to - Eigen::Vector2d{0.2, 0.0}).norm(), 1e-12);
+  dynamic_obstacles.advance(0.5);
+  ASSERT_EQ(dynamic_obstacles.all().size(), 2U);
+  EXPECT_LT((dynamic_obstacles.all()[0].motion.from - Eigen::Vector2d{0.4, 0.2}).norm(), 1e-12);
+  EXPECT_LT((dynamic_obstacles.all()[0].velocity_world - Eigen::Vector2d{0.0, 2.0}).norm(), 1e-12);
+  EXPECT_LT((dynamic_obstacles.all()[1].motion.to - Eigen::Vector2d{5.0, 5.2}).norm(), 1e-12);
+  dynamic_obstacles.advance(0.9);
+  ASSERT_EQ(dynamic_obstacles.all().size(), 1U);  // the first has gone
+  EXPECT_EQ(dynamic_obstacles.all()[0].id, 9);
+  dynamic_obstacles.advance(1.3);
+  EXPECT_TRUE(dynamic_obstacles.all().empty());
 }
 
 }  // namespace

@@ -261,8 +261,15 @@ void Simulation::Implementation::tell_frame() {
       wheel_speeds[i] = world.plant(static_cast<int>(i)).wheel_speeds();
     }
   }
-  const TrialFrame frame{now(),         world.share(),     &truth,           &world.movers(), &robots,
-                         &wheel_speeds, &world.commands(), &last_control_us, &world.shapes()};
+  const TrialFrame frame{now(),
+                         world.share(),
+                         &truth,
+                         &world.dynamic_obstacles(),
+                         &robots,
+                         &wheel_speeds,
+                         &world.commands(),
+                         &last_control_us,
+                         &world.shapes()};
   for (TrialListener* listener : listeners) listener->frame(frame);
 }
 

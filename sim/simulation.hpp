@@ -24,7 +24,7 @@ struct SimulationOptions {
   bool record = false;  ///< fill TrialResult::recording
   /// Seconds of some steady clock; used to measure computing only. None: nothing is measured.
   std::function<double()> clock;
-  /// Called every 0.1 simulated seconds with the time [s]; false ends the trial (as overtime).
+  /// Called every 0.1 simulated seconds with the time [s]; false ends the trial (as a timeout).
   std::function<bool(double)> progress;
   TrialListener* listener = nullptr;  ///< told of what happens; must outlive the simulation
   /// How the robots of one tick think; none: one after the other, on the calling thread. `clock` is then read
@@ -56,8 +56,9 @@ class Simulation {
 [[nodiscard]] AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent);
 
 /// What a robot's host reckons with in this scenario. Its guards are up, and as wide as the scenario's own
-/// noise of poses asks for: trials study noise that would be a fault elsewhere. Robots of a trial are honest,
-/// so peers are taken at their word, as the experiments assume; observations always say what moves around.
+/// noise of poses asks for: trials configuration noise that would be a fault elsewhere. Robots of a trial are
+/// honest, so peers are taken at their word, as the experiments assume; observations always say what moves
+/// around.
 [[nodiscard]] host::HostParameters host_parameters_for(const Scenario& scenario);
 
 }  // namespace spf::sim

@@ -80,7 +80,8 @@ std::vector<Eigen::Vector2d> mover_path(const Scenario& scenario) {
   std::vector<Eigen::Vector2d> path;
   const TrialResult result = run_recorded(scenario);
   for (const RecordedFrame& frame : result.recording->frames)
-    for (const RecordedMover& mover : frame.movers) path.push_back(mover.state.position_world);
+    for (const RecordedDynamicObstacle& obstacle : frame.dynamic_obstacles)
+      path.push_back(obstacle.state.position_world);
   return path;
 }
 
@@ -157,7 +158,7 @@ TEST(Simulation, TimeRunsOut) {
   Scenario scenario = lone_robot(TrackingMode::full);
   scenario.simulation.trial.time_limit = 2.0;
   const TrialResult result = run(scenario);
-  EXPECT_EQ(result.outcome, TrialOutcome::overtime);
+  EXPECT_EQ(result.outcome, TrialOutcome::timeout);
   EXPECT_NEAR(result.sim_seconds, 2.0, 1e-9);
   EXPECT_FALSE(result.robots[0].arrived);
 }
@@ -191,8 +192,8 @@ double distance_to_anything(const Eigen::Vector2d& place, const Scenario& scenar
     if (std::abs(frame.time - time) > 0.45) continue;  // a few sweeps make a cell occupied
     for (const RecordedRobot& robot : frame.robots)
       nearest = std::min(nearest, (robot.pose.position_world - place).norm() - scenario.robot.radius);
-    for (const RecordedMover& mover : frame.movers)
-      nearest = std::min(nearest, (mover.state.position_world - place).norm() - mover.state.radius);
+    for (const RecordedDynamicObstacle& obstacle : frame.dynamic_obstacles)
+      nearest = std::min(nearest, (obstacle.state.position_world - place).norm() - obstacle.state.radius);
   }
   return nearest;
 }
@@ -206,7 +207,7 @@ TEST(Simulation, RecordsWhatAReplayShows) {
   for (std::size_t i = 0; i < recording.frames.size(); ++i) {
     EXPECT_NEAR(recording.frames[i].time, 0.1 * static_cast<double>(i), 1e-9);
     EXPECT_EQ(recording.frames[i].robots.size(), 12U);
-    EXPECT_EQ(recording.frames[i].movers.size(), 1U);
+    EXPECT_EQ(recording.frames[i].dynamic_obstacles.size(), 1U);
   }
   EXPECT_GE(recording.plans.size(), 12U);
   for (const RecordedPlan& plan : recording.plans) EXPECT_FALSE(plan.points.empty());

@@ -6,7 +6,7 @@
 
 #include "host/robot_host.hpp"
 #include "sim/contact.hpp"
-#include "sim/movers.hpp"
+#include "sim/dynamic_obstacles.hpp"
 #include "sim/robot_truth.hpp"
 
 namespace spf::sim {
@@ -14,9 +14,9 @@ namespace spf::sim {
 /// The moment at which robots have thought and not yet moved; by robot unless said otherwise.
 struct TrialFrame {
   double time = 0.0;   ///< [s]
-  double share = 0.0;  ///< of the movers' step
+  double share = 0.0;  ///< of the obstacles' step
   const std::vector<RobotTruth>* robots = nullptr;
-  const std::vector<Mover>* movers = nullptr;
+  const std::vector<DynamicObstacle>* dynamic_obstacles = nullptr;
   const std::vector<host::RobotHost>* hosts = nullptr;
   const std::vector<Eigen::Vector3d>* wheel_speeds = nullptr;    ///< [m/s] true
   const std::vector<Eigen::Vector3d>* wheel_commands = nullptr;  ///< [m/s]

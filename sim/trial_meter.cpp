@@ -40,12 +40,13 @@ void TrialMeter::moved(double time, std::vector<RobotTruth>& robots) {
   }
 }
 
-void TrialMeter::digest(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers) {
+void TrialMeter::digest(const std::vector<RobotTruth>& robots,
+                        const std::vector<DynamicObstacle>& dynamic_obstacles) {
   const auto add = [this](const Eigen::Vector2d& position) {
     digest_ = mix(digest_ ^ bits_of(position.x()), bits_of(position.y()));
   };
   for (const RobotTruth& truth : robots) add(truth.pose.position_world);
-  for (const Mover& mover : movers) add(mover.motion.from);
+  for (const DynamicObstacle& obstacle : dynamic_obstacles) add(obstacle.motion.from);
 }
 
 void TrialMeter::finish(double time, const std::vector<RobotTruth>& robots, const ContactMonitor& monitor,

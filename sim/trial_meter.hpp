@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sim/contact_monitor.hpp"
-#include "sim/movers.hpp"
+#include "sim/dynamic_obstacles.hpp"
 #include "sim/robot_truth.hpp"
 #include "sim/trial_result.hpp"
 
@@ -20,7 +20,7 @@ class TrialMeter {
   /// Numbers of the robots that arrived in the last call of moved().
   [[nodiscard]] const std::vector<int>& arrivals() const { return arrivals_; }
   /// All positions now, into the digest.
-  void digest(const std::vector<RobotTruth>& robots, const std::vector<Mover>& movers);
+  void digest(const std::vector<RobotTruth>& robots, const std::vector<DynamicObstacle>& dynamic_obstacles);
 
   /// Fills what was metered into the result; the trial ended at `time` [s].
   void finish(double time, const std::vector<RobotTruth>& robots, const ContactMonitor& monitor,

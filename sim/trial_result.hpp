@@ -15,7 +15,7 @@ namespace spf::sim {
 
 struct Recording;
 
-enum class TrialOutcome { success, collision, overtime };
+enum class TrialOutcome { success, collision, timeout };
 
 }  // namespace spf::sim
 
@@ -25,7 +25,7 @@ struct EnumNames<sim::TrialOutcome> {
   static constexpr std::array<std::pair<sim::TrialOutcome, const char*>, 3> values{
       {{sim::TrialOutcome::success, "success"},
        {sim::TrialOutcome::collision, "collision"},
-       {sim::TrialOutcome::overtime, "overtime"}}};
+       {sim::TrialOutcome::timeout, "overtime"}}};
 };
 }  // namespace spf
 
@@ -50,20 +50,20 @@ struct RobotResult {
   std::int64_t optimiser_calls = 0;  ///< L-BFGS runs (the paper's iterations)
   std::int64_t inner_iterations = 0;
   std::int64_t evaluations = 0;
-  std::int64_t manoeuvres = 0;
+  std::int64_t primitives = 0;
   double static_clearance = 0.0;            ///< [m] least, minus the radius; at most 3 m
   std::array<double, kStopCauses> stood{};  ///< [s] by StopCause; `arrived` and `none` stay 0
 };
 
 struct TrialResult {
   int trial = 0;
-  TrialOutcome outcome = TrialOutcome::overtime;
+  TrialOutcome outcome = TrialOutcome::timeout;
   std::vector<Contact> contacts;             ///< by time; only the first, where a contact ends the trial
   std::vector<Contact> hits_while_standing;  ///< by recorded people who do not react
   std::vector<RobotResult> robots;
   double last_arrival = 0.0;  ///< [s] of the robots that arrived
   double dynamic_distance =
-      0.0;  ///< [m] least centre distance to a mover while travelling; infinite without movers
+      0.0;  ///< [m] least centre distance to an obstacle while travelling; infinite without dynamic obstacles
   double dynamic_clearance = 0.0;  ///< [m] likewise minus the radii
   double peer_clearance = 0.0;     ///< [m] least gap between robots; infinite when never below 1 m
   double static_clearance = 0.0;   ///< [m] least gap to static shapes and border

@@ -27,13 +27,13 @@ const Scenario& usable(const Scenario& scenario) {
 World::World(const Scenario& scenario)
     : scenario_{usable(scenario)},
       plant_rate_{scenario.simulation.trial.plant_rate},
-      step_ticks_{ticks_between(plant_rate_, 1.0 / Movers::kStep)},
+      step_ticks_{ticks_between(plant_rate_, 1.0 / DynamicObstacles::kStep)},
       pose_ticks_{ticks_between(plant_rate_, scenario.simulation.pose_noise.rate)},
       observation_ticks_{ticks_between(plant_rate_, scenario.simulation.sensing.rate)},
       time_limit_{time_limit_of(scenario)},
       commands_(scenario.robots.size(), Eigen::Vector3d::Zero()),
       grid_{std::max(1.0, scenario.simulation.sensing.range)},
-      movers_{scenario},
+      dynamic_obstacles_{scenario},
       sensing_{scenario},
       monitor_{scenario},
       meter_{scenario} {
@@ -51,8 +51,8 @@ World::World(const Scenario& scenario)
 
 void World::begin_tick() {
   if (step_due()) {
-    movers_.advance(time());
-    meter_.digest(robots_, movers_.all());
+    dynamic_obstacles_.advance(time());
+    meter_.digest(robots_, dynamic_obstacles_.all());
   }
   observation_due_ = false;
   if (!pose_due()) return;
@@ -66,7 +66,7 @@ PoseMeasurement World::measure_pose(int robot) {
 }
 
 void World::observe(int robot, Observation& observation) {
-  const Surroundings surroundings{time(), share(), &movers_.all(), &positions_, &grid_};
+  const Surroundings surroundings{time(), share(), &dynamic_obstacles_.all(), &positions_, &grid_};
   sensing_.observe(robot, robots_[index(robot)].pose, surroundings, observation);
 }
 
@@ -107,7 +107,7 @@ void World::check() {
   const double dt = 1.0 / plant_rate_;
   const double share_from = share();
   monitor_.check({time(), dt, share_from, share_from + 1.0 / static_cast<double>(step_ticks_)}, robots_,
-                 movers_.all());
+                 dynamic_obstacles_.all());
   const bool wrecks = scenario_.simulation.trial.after_contact == AfterContact::wreck;
   for (; contacts_seen_ < contacts().size(); ++contacts_seen_) {
     const Contact& contact = contacts()[contacts_seen_];
@@ -132,7 +132,7 @@ TrialResult World::result() const {
   TrialResult result;
   result.trial = scenario_.trial;
   TrialMeter meter = meter_;
-  meter.digest(robots_, movers_.all());
+  meter.digest(robots_, dynamic_obstacles_.all());
   meter.finish(time(), robots_, monitor_, result);
   result.contacts = contacts();
   const bool ends = scenario_.simulation.trial.after_contact == AfterContact::end;
@@ -146,7 +146,7 @@ TrialResult World::result() const {
                                        [](const RobotResult& robot) { return robot.in_time; });
   result.outcome = !result.contacts.empty() ? TrialOutcome::collision
                    : all_in_time            ? TrialOutcome::success
-                                            : TrialOutcome::overtime;
+                                            : TrialOutcome::timeout;
   return result;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/contact_monitor.hpp"
-#include "sim/movers.hpp"
+#include "sim/dynamic_obstacles.hpp"
 #include "sim/robot_truth.hpp"
 #include "sim/sensing.hpp"
 #include "sim/trial_meter.hpp"
@@ -28,14 +28,14 @@ class World {
 
   [[nodiscard]] double time() const { return static_cast<double>(tick_) / plant_rate_; }           ///< [s]
   [[nodiscard]] double next_time() const { return static_cast<double>(tick_ + 1) / plant_rate_; }  ///< [s]
-  /// The movers begin a step of 0.1 s with this tick.
+  /// The dynamic obstacles begin a step of 0.1 s with this tick.
   [[nodiscard]] bool step_due() const { return tick_ % step_ticks_ == 0; }
   [[nodiscard]] bool pose_due() const { return tick_ % pose_ticks_ == 0; }
   [[nodiscard]] bool observation_due() const { return observation_due_; }
   [[nodiscard]] double pose_interval() const {
     return static_cast<double>(pose_ticks_) / plant_rate_;
   }  ///< [s]
-  /// Share of the movers' step at which the tick begins, in [0, 1).
+  /// Share of the obstacles' step at which the tick begins, in [0, 1).
   [[nodiscard]] double share() const { return share_at(tick_); }
 
   /// Call it once per robot in each tick in which it is due: every call draws its noise.
@@ -55,7 +55,9 @@ class World {
 
   [[nodiscard]] const Scenario& scenario() const { return scenario_; }
   [[nodiscard]] const std::vector<RobotTruth>& robots() const { return robots_; }
-  [[nodiscard]] const std::vector<Mover>& movers() const { return movers_.all(); }
+  [[nodiscard]] const std::vector<DynamicObstacle>& dynamic_obstacles() const {
+    return dynamic_obstacles_.all();
+  }
   [[nodiscard]] const StaticShapes& shapes() const { return monitor_.shapes(); }
   [[nodiscard]] const std::vector<Eigen::Vector3d>& commands() const {
     return commands_;
@@ -89,7 +91,7 @@ class World {
 
   Scenario scenario_;
   double plant_rate_;  // [Hz]
-  long step_ticks_;    // of the movers
+  long step_ticks_;    // of the dynamic obstacles
   long pose_ticks_;
   long observation_ticks_;
   double time_limit_;  // [s]
@@ -104,7 +106,7 @@ class World {
   std::vector<Placement> placements_;      // by robot, of TrackingMode::ideal
   std::vector<Eigen::Vector2d> positions_;
   UniformGrid grid_;
-  Movers movers_;
+  DynamicObstacles dynamic_obstacles_;
   Sensing sensing_;
   ContactMonitor monitor_;
   TrialMeter meter_;

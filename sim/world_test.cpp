@@ -108,8 +108,8 @@ TEST(World, ReportsTheTruthWhenNothingIsNoisy) {
   world.observe(2, observation);
   EXPECT_EQ(observation.time, 0.0);
   std::size_t in_range = 0;
-  for (const Mover& mover : world.movers())
-    if ((mover.motion.from - pose.pose_world.position_world).norm() <=
+  for (const DynamicObstacle& obstacle : world.dynamic_obstacles())
+    if ((obstacle.motion.from - pose.pose_world.position_world).norm() <=
         world.scenario().simulation.sensing.range)
       ++in_range;
   EXPECT_EQ(observation.detections.size(), in_range);

@@ -24,22 +24,22 @@ SceneFamily likely_family(const YamlNode& root) {
 }
 
 /// Reads every key once: what defaults depend on comes first.
-Study read_keys(const YamlNode& root, const MethodTable& methods, InputProblems& problems) {
+RunConfiguration read_keys(const YamlNode& root, const MethodTable& methods, InputProblems& problems) {
   std::vector<std::string> keys;  // known when the family is
   FieldReader reader{root, "", keys, problems};
-  Study head;
+  RunConfiguration head;
   head.family = likely_family(root);
   head.method = MethodChoice{kDefaultMethod, methods};
-  Study::visit_head(head, reader);
-  head.robot = default_study(head.family, head.method).robot;
+  RunConfiguration::visit_head(head, reader);
+  head.robot = default_run_configuration(head.family, head.method).robot;
   keys = keys_of(head);
   reader.group("robot", head.robot);
-  Study study = default_study(head.family, head.method, head.robot);
-  study.seed = head.seed;
-  Study::visit_scene(study, reader);
-  Study::visit_parameters(study, reader);
+  RunConfiguration config = default_run_configuration(head.family, head.method, head.robot);
+  config.seed = head.seed;
+  RunConfiguration::visit_scene(config, reader);
+  RunConfiguration::visit_parameters(config, reader);
   reader.finish();
-  return study;
+  return config;
 }
 
 double heading_of(const RobotEntry& entry) {
@@ -49,20 +49,20 @@ double heading_of(const RobotEntry& entry) {
   return std::atan2(way.y(), way.x());
 }
 
-sim::Scenario explicit_scenario(const Study& study) {
+sim::Scenario explicit_scenario(const RunConfiguration& config) {
   sim::Scenario scenario;
   scenario.family = enum_name(kExplicitScene);
-  scenario.seed = study.seed;
-  scenario.robot = study.robot;
-  scenario.simulation = study.simulation;
-  if (study.scene.border) scenario.border = sim::Box{study.scene.border->low, study.scene.border->high};
-  for (const BoxEntry& box : study.scene.boxes) scenario.boxes.push_back({box.low, box.high});
-  for (const DiscEntry& disc : study.scene.discs) scenario.discs.push_back({disc.center, disc.radius});
-  for (const WallEntry& wall : study.scene.walls) scenario.walls.push_back({wall.from, wall.to});
-  for (const WallEntry& seam : study.scene.seams) scenario.seams.push_back({seam.from, seam.to});
-  for (const MovingEntry& disc : study.scene.moving)
+  scenario.seed = config.seed;
+  scenario.robot = config.robot;
+  scenario.simulation = config.simulation;
+  if (config.scene.border) scenario.border = sim::Box{config.scene.border->low, config.scene.border->high};
+  for (const BoxEntry& box : config.scene.boxes) scenario.boxes.push_back({box.low, box.high});
+  for (const DiscEntry& disc : config.scene.discs) scenario.discs.push_back({disc.center, disc.radius});
+  for (const WallEntry& wall : config.scene.walls) scenario.walls.push_back({wall.from, wall.to});
+  for (const WallEntry& seam : config.scene.seams) scenario.seams.push_back({seam.from, seam.to});
+  for (const MovingEntry& disc : config.scene.moving)
     scenario.moving.push_back({disc.position, disc.velocity, disc.radius});
-  for (const RobotEntry& robot : study.scene.robots)
+  for (const RobotEntry& robot : config.scene.robots)
     scenario.robots.push_back({{robot.start, heading_of(robot)}, robot.goal, robot.goal_heading});
   return scenario;
 }
@@ -108,9 +108,9 @@ std::vector<sim::ScenarioProblem> more_problems_of(const sim::Scenario& scenario
 
 /// Checks a scene that stands in the file. What was refused has left a default behind, about which nothing
 /// more is to be said.
-void check_explicit(const YamlNode& root, const Study& study, InputProblems& problems) {
+void check_explicit(const YamlNode& root, const RunConfiguration& config, InputProblems& problems) {
   const InputProblems refused = problems;
-  const sim::Scenario scenario = explicit_scenario(study);
+  const sim::Scenario scenario = explicit_scenario(config);
   std::vector<sim::ScenarioProblem> found = sim::problems_of(scenario);
   for (sim::ScenarioProblem& problem : more_problems_of(scenario)) found.push_back(std::move(problem));
   for (const sim::ScenarioProblem& problem : found) {
@@ -125,7 +125,7 @@ void check_explicit(const YamlNode& root, const Study& study, InputProblems& pro
 
 /// Checks that a family draws a first trial that can run. Reported as one problem, where the file sizes the
 /// family.
-void check_drawn(const YamlNode& root, const Study& study, InputProblems& problems) {
+void check_drawn(const YamlNode& root, const RunConfiguration& config, InputProblems& problems) {
   const char* key = root.find("robots") != nullptr ? "robots" : "family";
   const YamlNode* node = root.find(key);
   const auto refuse = [&](const std::string& why) {
@@ -134,7 +134,7 @@ void check_drawn(const YamlNode& root, const Study& study, InputProblems& proble
         std::string{key} + (node == nullptr ? "" : " = " + shown(*node)) + " cannot be drawn: " + why);
   };
   try {
-    const std::vector<sim::ScenarioProblem> found = sim::problems_of(make_trial(study, 0));
+    const std::vector<sim::ScenarioProblem> found = sim::problems_of(make_trial(config, 0));
     if (found.empty()) return;
     const std::string others =
         found.size() == 1 ? "" : " (and " + std::to_string(found.size() - 1) + " more)";
@@ -144,134 +144,138 @@ void check_drawn(const YamlNode& root, const Study& study, InputProblems& proble
   }
 }
 
-bool has_recording(const Study& study) {
-  return study.family.drawn == sim::Family::ped;
+bool has_recording(const RunConfiguration& config) {
+  return config.family.drawn == sim::Family::ped;
 }
 
-/// Reads the recording that the study names. A path in the scenario file begins at that file, any other (of
+/// Reads the recording that the configuration names. A path in the scenario file begins at that file, any
+/// other (of
 /// --set, of a campaign) at the working directory.
-void read_recording(const YamlNode& root, Study& study, InputProblems& problems) {
+void read_recording(const YamlNode& root, RunConfiguration& config, InputProblems& problems) {
   const std::string& file = root.place.source;
   const YamlNode* node = root.find("crowd");
-  if (node == nullptr || study.crowd.empty()) {
+  if (node == nullptr || config.crowd.empty()) {
     if (node == nullptr || node->kind == YamlKind::scalar)
       problems.add(node == nullptr ? root.place : node->place,
                    "crowd is missing: the family ped needs a recording, as in --set crowd=FILE.csv");
     return;
   }
-  std::filesystem::path path{study.crowd};
+  std::filesystem::path path{config.crowd};
   if (path.is_relative() && node->place.source == file)
     path = std::filesystem::path{file}.parent_path() / path;
-  study.recording = read_crowd_file(path.lexically_normal().string(), node->place, problems);
+  config.recording = read_crowd_file(path.lexically_normal().string(), node->place, problems);
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(path, error);
-  if (!error) study.crowd = absolute.lexically_normal().string();
+  if (!error) config.crowd = absolute.lexically_normal().string();
 }
 
-Study read_document(YamlNode root, const std::vector<Setting>& settings, const MethodTable& methods,
-                    InputProblems problems) {
+RunConfiguration read_document(YamlNode root, const std::vector<Setting>& settings,
+                               const MethodTable& methods, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
   for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
   if (!require_map(root, problems)) problems.throw_if_any();
-  Study study = read_keys(root, methods, problems);
-  if (has_recording(study)) read_recording(root, study, problems);
-  if (!study.family.drawn)
-    check_explicit(root, study, problems);
+  RunConfiguration config = read_keys(root, methods, problems);
+  if (has_recording(config)) read_recording(root, config, problems);
+  if (!config.family.drawn)
+    check_explicit(root, config, problems);
   else if (problems.empty())
-    check_drawn(root, study, problems);
+    check_drawn(root, config, problems);
   problems.throw_if_any();
-  return study;
+  return config;
 }
 
 }  // namespace
 
-Study default_study(SceneFamily family, const MethodChoice& method) {
+RunConfiguration default_run_configuration(SceneFamily family, const MethodChoice& method) {
   RobotParameters robot;
   if (family.drawn) robot = sim::family_setup(*family.drawn).robot;
-  return default_study(family, method, robot);
+  return default_run_configuration(family, method, robot);
 }
 
-Study default_study(SceneFamily family, const MethodChoice& method, const RobotParameters& robot) {
-  Study study;
-  study.family = family;
-  study.method = method;
-  study.agent = with_method(defaults_for(robot), method.method());
+RunConfiguration default_run_configuration(SceneFamily family, const MethodChoice& method,
+                                           const RobotParameters& robot) {
+  RunConfiguration config;
+  config.family = family;
+  config.method = method;
+  config.agent = with_method(defaults_for(robot), method.method());
   RobotParameters sized_for;  // the robot that the family's numbers are for
   if (family.drawn) {
     const sim::FamilySetup setup = sim::family_setup(*family.drawn);
-    study.layout = setup.layout;
-    study.simulation = setup.simulation;
+    config.layout = setup.layout;
+    config.simulation = setup.simulation;
     sized_for = setup.robot;
   }
-  study.simulation = scaled(study.simulation, RobotScale{robot, sized_for});
-  study.robot = robot;
-  return study;
+  config.simulation = scaled(config.simulation, RobotScale{robot, sized_for});
+  config.robot = robot;
+  return config;
 }
 
-Study read_study(const std::string& path, const std::vector<Setting>& settings, const MethodTable& methods) {
+RunConfiguration read_run_configuration(const std::string& path, const std::vector<Setting>& settings,
+                                        const MethodTable& methods) {
   InputProblems problems;
   YamlNode root = read_yaml_file(path, problems);
   return read_document(std::move(root), settings, methods, std::move(problems));
 }
 
-Study study_from_text(const std::string& text, const std::string& name, const std::vector<Setting>& settings,
-                      const MethodTable& methods) {
+RunConfiguration run_configuration_from_text(const std::string& text, const std::string& name,
+                                             const std::vector<Setting>& settings,
+                                             const MethodTable& methods) {
   InputProblems problems;
   YamlNode root = parse_yaml(text, name, problems);
   return read_document(std::move(root), settings, methods, std::move(problems));
 }
 
-std::string to_yaml_text(const Study& study, bool explains) {
-  return to_yaml(study, explains);
+std::string to_yaml_text(const RunConfiguration& config, bool explains) {
+  return to_yaml(config, explains);
 }
 
-sim::Scenario make_trial(const Study& study, int trial) {
-  if (study.family.drawn) {
+sim::Scenario make_trial(const RunConfiguration& config, int trial) {
+  if (config.family.drawn) {
     return sim::make_scenario(
-        {*study.family.drawn, study.layout, study.robot, study.simulation, study.recording}, study.seed,
+        {*config.family.drawn, config.layout, config.robot, config.simulation, config.recording}, config.seed,
         trial);
   }
-  sim::Scenario scenario = explicit_scenario(study);
+  sim::Scenario scenario = explicit_scenario(config);
   scenario.trial = trial;
   return scenario;
 }
 
-std::optional<int> trial_count(const Study& study) {
-  if (!has_recording(study) || !study.recording) return std::nullopt;
-  return sim::pedestrian_trials(*study.recording, study.layout);
+std::optional<int> trial_count(const RunConfiguration& config) {
+  if (!has_recording(config) || !config.recording) return std::nullopt;
+  return sim::pedestrian_trials(*config.recording, config.layout);
 }
 
-std::string trials_problem(const Study& study, int first, int trials) {
-  const std::optional<int> count = trial_count(study);
+std::string trials_problem(const RunConfiguration& config, int first, int trials) {
+  const std::optional<int> count = trial_count(config);
   if (!count || first + trials <= *count) return "";
-  return "trial " + std::to_string(first + trials - 1) + " is beyond the recording " + study.crowd +
+  return "trial " + std::to_string(first + trials - 1) + " is beyond the recording " + config.crowd +
          ", which has " + std::to_string(*count) + (*count == 1 ? " window of " : " windows of ") +
-         to_text(study.layout.window) + " s: trials 0 to " + std::to_string(*count - 1);
+         to_text(config.layout.window) + " s: trials 0 to " + std::to_string(*count - 1);
 }
 
-std::string identity_text(const Study& study) {
-  if (!study.recording) return to_yaml_text(study);
+std::string identity_text(const RunConfiguration& config) {
+  if (!config.recording) return to_yaml_text(config);
   std::uint64_t content = 0;
   const auto add = [&content](double value) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &value, sizeof bits);
     content = mix(content, bits);
   };
-  for (const sim::CrowdSample& sample : study.recording->samples()) {
+  for (const sim::CrowdSample& sample : config.recording->samples()) {
     add(sample.time);
     add(sample.id);
     add(sample.position_world.x());
     add(sample.position_world.y());
   }
-  Study placeless = study;
+  RunConfiguration placeless = config;
   placeless.crowd = to_text(content);
   return to_yaml_text(placeless);
 }
 
-AgentParameters agent_parameters(const Study& study) {
-  AgentParameters parameters = study.agent;
-  parameters.robot = study.robot;
-  const sim::PoseNoiseParameters& noise = study.simulation.pose_noise;
+AgentParameters agent_parameters(const RunConfiguration& config) {
+  AgentParameters parameters = config.agent;
+  parameters.robot = config.robot;
+  const sim::PoseNoiseParameters& noise = config.simulation.pose_noise;
   ObserverParameters& observer = parameters.tracker.observer;
   if (observer.pose_sigma == 0.0) observer.pose_sigma = noise.position_sigma;
   if (observer.heading_sigma == 0.0) observer.heading_sigma = std::min(noise.heading_sigma, 3.0);

@@ -1,6 +1,6 @@
 // Scenario files: a family of the experiment protocol (docs/protocol.md) or a place drawn by hand, with
-// everything that differs from the defaults. Reading one gives a Study, from which every trial's ground truth
-// and every robot's parameters follow. Frame: world, SI.
+// everything that differs from the defaults. Reading one gives a RunConfiguration, from which every trial's
+// ground truth and every robot's parameters follow. Frame: world, SI.
 #pragma once
 
 #include <Eigen/Core>
@@ -144,7 +144,7 @@ struct ExplicitScene {
 };
 
 /// A scenario file with all its defaults filled in.
-struct Study {
+struct RunConfiguration {
   SceneFamily family;
   std::uint64_t seed = sim::kDefaultSeed;
   MethodChoice method;
@@ -175,10 +175,10 @@ struct Study {
 };
 
 /// The defaults of a family and a method.
-[[nodiscard]] Study default_study(SceneFamily family, const MethodChoice& method);
+[[nodiscard]] RunConfiguration default_run_configuration(SceneFamily family, const MethodChoice& method);
 /// The same for another robot than the family's: defaults that follow the robot (ScaledUnit) are its own.
-[[nodiscard]] Study default_study(SceneFamily family, const MethodChoice& method,
-                                  const RobotParameters& robot);
+[[nodiscard]] RunConfiguration default_run_configuration(SceneFamily family, const MethodChoice& method,
+                                                         const RobotParameters& robot);
 
 /// One value written over the file's.
 struct Setting {
@@ -189,38 +189,39 @@ struct Setting {
 /// Reads a file with settings written over it. Throws InputError with every problem: of
 /// form, of single values, and of the scene (robots inside obstacles, ...). `methods` are those that it may
 /// name.
-[[nodiscard]] Study read_study(const std::string& path, const std::vector<Setting>& settings = {},
-                               const MethodTable& methods = {});
+[[nodiscard]] RunConfiguration read_run_configuration(const std::string& path,
+                                                      const std::vector<Setting>& settings = {},
+                                                      const MethodTable& methods = {});
 /// The same from text; `name` stands for the file in messages.
-[[nodiscard]] Study study_from_text(const std::string& text, const std::string& name,
-                                    const std::vector<Setting>& settings = {},
-                                    const MethodTable& methods = {});
+[[nodiscard]] RunConfiguration run_configuration_from_text(const std::string& text, const std::string& name,
+                                                           const std::vector<Setting>& settings = {},
+                                                           const MethodTable& methods = {});
 
-/// The file that gives this study, every key written out.
+/// The file that gives this configuration, every key written out.
 /// With `explains`, each with a comment.
-[[nodiscard]] std::string to_yaml_text(const Study& study, bool explains = false);
+[[nodiscard]] std::string to_yaml_text(const RunConfiguration& config, bool explains = false);
 
 /// Ground truth of trial k. Throws std::runtime_error when a family finds no scene for its layout, or the
 /// recording has no such window.
-[[nodiscard]] sim::Scenario make_trial(const Study& study, int trial);
+[[nodiscard]] sim::Scenario make_trial(const RunConfiguration& config, int trial);
 
 /// How many trials there are: the windows of a recording; as many as one likes otherwise.
-[[nodiscard]] std::optional<int> trial_count(const Study& study);
+[[nodiscard]] std::optional<int> trial_count(const RunConfiguration& config);
 /// Why trials `first` to `first + trials - 1` cannot all be run, empty when they can.
-[[nodiscard]] std::string trials_problem(const Study& study, int first, int trials);
-/// Text that two studies share when all their trials are equal, wherever their recordings lie.
-[[nodiscard]] std::string identity_text(const Study& study);
+[[nodiscard]] std::string trials_problem(const RunConfiguration& config, int first, int trials);
+/// Text that two configs share when all their trials are equal, wherever their recordings lie.
+[[nodiscard]] std::string identity_text(const RunConfiguration& config);
 
-/// Parameters of every robot: `agent` with the study's robot. An observer whose pose_sigma or heading_sigma
-/// is 0 (the default, "as exact as the scenario says") is told the scenario's pose_noise; any other value
-/// counts as written, so that an observer can be misinformed on purpose.
-[[nodiscard]] AgentParameters agent_parameters(const Study& study);
+/// Parameters of every robot: `agent` with the configuration's robot. An observer whose pose_sigma or
+/// heading_sigma is 0 (the default, "as exact as the scenario says") is told the scenario's pose_noise; any
+/// other value counts as written, so that an observer can be misinformed on purpose.
+[[nodiscard]] AgentParameters agent_parameters(const RunConfiguration& config);
 
 // ---- implementation of the field list
 // ------------------------------------------------------------------------------
 
 template <class Self, class Visitor>
-void Study::visit_head(Self& self, Visitor&& visit) {
+void RunConfiguration::visit_head(Self& self, Visitor&& visit) {
   visit.required("family");
   visit("family", self.family,
         "family of scenes (docs/protocol.md), or explicit: the scene stands in the file");
@@ -229,7 +230,7 @@ void Study::visit_head(Self& self, Visitor&& visit) {
 }
 
 template <class Self, class Visitor>
-void Study::visit_scene(Self& self, Visitor&& visit) {
+void RunConfiguration::visit_scene(Self& self, Visitor&& visit) {
   if (!self.family.drawn) return ExplicitScene::visit_fields(self.scene, visit);
   visit("robots", self.layout.robots, "1", Range{1, 10000}, "number of robots");
   if (self.family.drawn == sim::Family::ped)
@@ -241,7 +242,7 @@ void Study::visit_scene(Self& self, Visitor&& visit) {
 }
 
 template <class Self, class Visitor>
-void Study::visit_parameters(Self& self, Visitor&& visit) {
+void RunConfiguration::visit_parameters(Self& self, Visitor&& visit) {
   sim::SimulationParameters::visit_fields(self.simulation, visit);
   PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{self.agent, {"robot"}};
   visit.group("agent", agent);

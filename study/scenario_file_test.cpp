@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 std::string report(const std::string& text, const std::vector<Setting>& settings = {}) {
   try {
-    static_cast<void>(study_from_text(text, "file.yaml", settings));
+    static_cast<void>(run_configuration_from_text(text, "file.yaml", settings));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -35,12 +35,13 @@ std::string text_of(const std::filesystem::path& path) {
 const std::filesystem::path kScenarios = std::filesystem::path{source_dir()} / "scenarios";
 
 TEST(ScenarioFile, GivesTheFamilyOfTheProtocol) {
-  const Study study = study_from_text("family: t2_hard\nnoise: {level: 1, model: walk}\n", "file.yaml");
-  EXPECT_EQ(study.family, SceneFamily{sim::Family::t2_hard});
-  EXPECT_EQ(study.method.name(), "space_time");
-  EXPECT_EQ(study.simulation.noise.level, 1.0);
-  EXPECT_EQ(study.simulation.noise.speed_limit, 1.2);  // of the family, not of the struct
-  const sim::Scenario trial = make_trial(study, 3);
+  const RunConfiguration config =
+      run_configuration_from_text("family: t2_hard\nnoise: {level: 1, model: walk}\n", "file.yaml");
+  EXPECT_EQ(config.family, SceneFamily{sim::Family::t2_hard});
+  EXPECT_EQ(config.method.name(), "space_time");
+  EXPECT_EQ(config.simulation.noise.level, 1.0);
+  EXPECT_EQ(config.simulation.noise.speed_limit, 1.2);  // of the family, not of the struct
+  const sim::Scenario trial = make_trial(config, 3);
   EXPECT_EQ(trial.robots.size(), 12u);
   EXPECT_EQ(trial.trial, 3);
   EXPECT_EQ(trial.seed, sim::kDefaultSeed);
@@ -48,22 +49,22 @@ TEST(ScenarioFile, GivesTheFamilyOfTheProtocol) {
 }
 
 TEST(ScenarioFile, DrawsTheSameTrialsAsTheGenerator) {
-  const Study study = study_from_text("family: t2\n", "file.yaml");
+  const RunConfiguration config = run_configuration_from_text("family: t2\n", "file.yaml");
   const sim::Scenario expected = sim::make_scenario(sim::family_setup(sim::Family::t2), sim::kDefaultSeed, 7);
-  const sim::Scenario trial = make_trial(study, 7);
+  const sim::Scenario trial = make_trial(config, 7);
   ASSERT_EQ(trial.moving.size(), expected.moving.size());
   for (std::size_t i = 0; i < trial.moving.size(); ++i)
     EXPECT_EQ(trial.moving[i].position_world, expected.moving[i].position_world);
 }
 
 TEST(ScenarioFile, SizesAFamily) {
-  const Study study = study_from_text("family: swap\n", "file.yaml", {{"robots=20"}});
-  EXPECT_EQ(make_trial(study, 0).robots.size(), 20u);
+  const RunConfiguration config = run_configuration_from_text("family: swap\n", "file.yaml", {{"robots=20"}});
+  EXPECT_EQ(make_trial(config, 0).robots.size(), 20u);
 }
 
 TEST(ScenarioFile, DefaultsFollowTheRobotOfTheFileAndSetValuesDoNot) {
-  const Study standard = study_from_text("family: t2\n", "standard.yaml");
-  const Study small = study_from_text(
+  const RunConfiguration standard = run_configuration_from_text("family: t2\n", "standard.yaml");
+  const RunConfiguration small = run_configuration_from_text(
       "family: t2\nrobot: {radius: 0.15, max_speed: 0.5, max_acceleration: 0.5}\n"
       "agent: {space_time: {peer_margin: 0.05}}\n",
       "small.yaml");
@@ -76,24 +77,24 @@ TEST(ScenarioFile, DefaultsFollowTheRobotOfTheFileAndSetValuesDoNot) {
 }
 
 TEST(ScenarioFile, AFamilyOfSmallRobotsHasTheirDefaults) {
-  const Study platform = study_from_text("family: p8\n", "p8.yaml");
+  const RunConfiguration platform = run_configuration_from_text("family: p8\n", "p8.yaml");
   EXPECT_DOUBLE_EQ(platform.agent.space_time.margin, SpaceTimeParameters{}.margin / 6.0);
   EXPECT_EQ(platform.simulation.sensing.map_resolution, 0.02);  // as the family says
-  const Study again = study_from_text(to_yaml_text(platform), "again.yaml");
+  const RunConfiguration again = run_configuration_from_text(to_yaml_text(platform), "again.yaml");
   EXPECT_EQ(to_yaml_text(again), to_yaml_text(platform));
 }
 
 TEST(ScenarioFile, MethodSetsAgentParametersAndTheFileOverridesThem) {
   const AgentParameters defaults;
-  const Study study = study_from_text(
+  const RunConfiguration config = run_configuration_from_text(
       "family: t2\nmethod: spf_empc\nrobot: {radius: 0.25}\nagent: {team: {emergency_time: 0.5}}\n",
       "file.yaml");
   const AgentParameters expected = with_method(defaults, "spf_empc");
-  const AgentParameters parameters = agent_parameters(study);
+  const AgentParameters parameters = agent_parameters(config);
   EXPECT_EQ(typeid(*parameters.make_planner(parameters)), typeid(*expected.make_planner(expected)));
   EXPECT_EQ(parameters.team.replanning.emergency_time, 0.5);
   EXPECT_EQ(parameters.robot.radius, 0.25);  // one robot for planner, controller and plant
-  EXPECT_EQ(make_trial(study, 0).robot.radius, 0.25);
+  EXPECT_EQ(make_trial(config, 0).robot.radius, 0.25);
 }
 
 // What once was a parameter and is a constant now: a file that still sets it is told so, not obeyed in
@@ -109,7 +110,7 @@ TEST(ScenarioFile, RefusesKeysOfParametersThatAreConstantsNow) {
 }
 
 TEST(ScenarioFile, DescribesASceneByHand) {
-  const Study study = study_from_text(
+  const RunConfiguration config = run_configuration_from_text(
       "family: explicit\n"
       "border: {low: [-5, -5], high: [5, 5]}\n"
       "robots:\n"
@@ -120,7 +121,7 @@ TEST(ScenarioFile, DescribesASceneByHand) {
       "walls: [{from: [-3, -3], to: [-2, -3]}]\n"
       "moving: [{position: [3, -3], velocity: [0, 0.5], radius: 0.3}]\n",
       "file.yaml");
-  const sim::Scenario scenario = make_trial(study, 0);
+  const sim::Scenario scenario = make_trial(config, 0);
   ASSERT_EQ(scenario.robots.size(), 2u);
   EXPECT_EQ(scenario.robots[0].start.heading, 0.0);  // towards its goal
   EXPECT_EQ(scenario.robots[1].start.heading, 1.5);
@@ -273,8 +274,8 @@ TEST(ScenarioFile, ResolvedFormReadsBackToTheSameStudy) {
         "3]}]\n"
         "border: {low: [-9, -9], high: [9, 9]}\nmoving: [{position: [3, -3], velocity: [0.1, 0.2]}]\n"}) {
     for (const bool explains : {false, true}) {
-      const std::string resolved = to_yaml_text(study_from_text(text, "file.yaml"), explains);
-      EXPECT_EQ(to_yaml_text(study_from_text(resolved, "resolved.yaml"), explains), resolved);
+      const std::string resolved = to_yaml_text(run_configuration_from_text(text, "file.yaml"), explains);
+      EXPECT_EQ(to_yaml_text(run_configuration_from_text(resolved, "resolved.yaml"), explains), resolved);
     }
   }
 }
@@ -284,7 +285,7 @@ TEST(ScenarioFile, LoadsHundredsOfStaticDiscs) {
   for (int i = 0; i < 30; ++i)
     for (int j = 0; j < 30; ++j)
       text += "  - {center: [" + std::to_string(i) + ", " + std::to_string(j + 1) + "], radius: 0.075}\n";
-  EXPECT_EQ(make_trial(study_from_text(text, "file.yaml"), 0).discs.size(), 900u);
+  EXPECT_EQ(make_trial(run_configuration_from_text(text, "file.yaml"), 0).discs.size(), 900u);
 }
 
 TEST(ScenarioFiles, AreAllGood) {
@@ -292,8 +293,8 @@ TEST(ScenarioFiles, AreAllGood) {
   for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator{kScenarios}) {
     if (entry.path().extension() != ".yaml") continue;
     SCOPED_TRACE(entry.path());
-    const Study study = read_study(entry.path().string());
-    EXPECT_FALSE(make_trial(study, 0).robots.empty());
+    const RunConfiguration config = read_run_configuration(entry.path().string());
+    EXPECT_FALSE(make_trial(config, 0).robots.empty());
     ++seen;
   }
   EXPECT_GE(seen, 7);
@@ -302,8 +303,9 @@ TEST(ScenarioFiles, AreAllGood) {
 TEST(ScenarioFiles, FamiliesAreNamedAfterThemselves) {
   for (const auto& [family, name] : EnumNames<sim::Family>::values) {
     SCOPED_TRACE(name);
-    const Study study = read_study((kScenarios / (std::string{name} + ".yaml")).string());
-    EXPECT_EQ(study.family, SceneFamily{family});
+    const RunConfiguration config =
+        read_run_configuration((kScenarios / (std::string{name} + ".yaml")).string());
+    EXPECT_EQ(config.family, SceneFamily{family});
   }
 }
 
@@ -313,8 +315,8 @@ TEST(ScenarioFiles, CrossingExplainsEveryKey) {
   InputProblems problems;
   const YamlNode root = parse_yaml(text, "crossing.yaml", problems);
   ASSERT_TRUE(problems.empty()) << problems.to_text();
-  Study study = default_study(kExplicitScene, Study{}.method);
-  for (std::string key : keys_of(study)) {
+  RunConfiguration config = default_run_configuration(kExplicitScene, RunConfiguration{}.method);
+  for (std::string key : keys_of(config)) {
     if (key == "border" || key.find("heading") != std::string::npos)
       continue;  // absent has a meaning of its own
     for (std::size_t at = key.find("[]"); at != std::string::npos; at = key.find("[]"))
@@ -329,7 +331,7 @@ TEST(ScenarioFiles, CrossingExplainsEveryKey) {
   for (std::string line; std::getline(lines, line);)
     explained += line.find("  # ") != std::string::npos ? 1 : 0;
   int values = 0;
-  for (const std::string& key : keys_of(study)) values += key.find("[]") == std::string::npos ? 1 : 0;
+  for (const std::string& key : keys_of(config)) values += key.find("[]") == std::string::npos ? 1 : 0;
   EXPECT_GE(explained, values - 20);  // groups and lists have their comment above or none
 }
 

@@ -1,5 +1,6 @@
-// The smallest host of a robot outside the project: find_package(spf), one target, one door (RobotHost::step).
-// The robot is moved as it plans; a real host would drive the wheels and tell the measured pose (add_pose).
+// The smallest host of a robot outside the project: find_package(spf), one target, one door
+// (RobotHost::step). The robot is moved as it plans; a real host would drive the wheels and tell the measured
+// pose (add_pose).
 #include <host/robot_host.hpp>
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "apps/program.hpp"
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/planning/plan_judge.hpp"
 #include "spf/trajectory/constant_acceleration.hpp"
 

@@ -19,7 +19,7 @@ constexpr std::size_t kHeading = 2;
 constexpr double kInitialDisturbanceSigma = 0.05;
 // Outliers that do not even agree with each other are believed after this many times kReadmitCount: then the
 // declared noise is wrong, and a bad measurement is better than none for ever.
-constexpr int kPatience = 4;
+constexpr int kInconsistentFactor = 4;
 constexpr double kLargestTurn = 1.0;  // [rad] of a sensor's jump
 
 }  // namespace
@@ -35,7 +35,7 @@ void PoseObserver::reset() {
   since_measurement_ = 0.0;
   agreeing_outliers_ = 0;
   outliers_in_a_row_ = 0;
-  following_jump_ = false;
+  reinitialising_ = false;
 }
 
 void PoseObserver::start(const Triple& measured) {
@@ -69,7 +69,7 @@ MeasurementOutcome PoseObserver::correct(const Pose2& measured_world) {
   }
   const Triple difference =
       innovation(measured, {axes_[0].value(), axes_[1].value(), axes_[kHeading].value()});
-  if (following_jump_) return follow_jump(difference);
+  if (reinitialising_) return reinitialise_onto(difference);
   // The gate of the first outlier is that of those that follow: it must not open while one waits at it.
   if (outliers_in_a_row_ == 0)
     gate_variance_ = {axes_[0].variance(), axes_[1].variance(), axes_[kHeading].variance()};
@@ -125,15 +125,15 @@ MeasurementOutcome PoseObserver::reject(const Triple& measured) {
     agreeing_outliers_ = 1;
     outlier_mean_ = measured;
   }
-  if (agreeing_outliers_ < kReadmitCount && outliers_in_a_row_ < kPatience * kReadmitCount)
+  if (agreeing_outliers_ < kReadmitCount && outliers_in_a_row_ < kInconsistentFactor * kReadmitCount)
     return MeasurementOutcome::rejected;
 
   agreeing_outliers_ = std::max(agreeing_outliers_, 1);
   const Triple jump =
       innovation(outlier_mean_, {axes_[0].value(), axes_[1].value(), axes_[kHeading].value()});
-  following_jump_ = is_sensor_jump(jump);
+  reinitialising_ = is_sensor_jump(jump);
   jump_ = jump;
-  for (std::size_t i = 0; i < 3 && !following_jump_; ++i) {
+  for (std::size_t i = 0; i < 3 && !reinitialising_; ++i) {
     const double variance = noise_[i].measurement * noise_[i].measurement;
     // An exact sensor is believed to the last measurement, a noisy one to the mean of those that agree.
     axes_[i].restart(variance > 0.0 ? outlier_mean_[i] : measured[i], variance / agreeing_outliers_);
@@ -142,7 +142,7 @@ MeasurementOutcome PoseObserver::reject(const Triple& measured) {
   since_measurement_ = 0.0;
   agreeing_outliers_ = 0;
   outliers_in_a_row_ = 0;
-  return MeasurementOutcome::readmitted;
+  return MeasurementOutcome::reinitialised;
 }
 
 bool PoseObserver::is_sensor_jump(const Triple& jump) const {
@@ -152,7 +152,7 @@ bool PoseObserver::is_sensor_jump(const Triple& jump) const {
 
 // Mostly dead reckoning: the measured pose pulls with the settling time until it agrees with the estimate
 // again.
-MeasurementOutcome PoseObserver::follow_jump(const Triple& innovation) {
+MeasurementOutcome PoseObserver::reinitialise_onto(const Triple& innovation) {
   constexpr double kSmoothing = 0.2;  // of about five measurements
   Triple change{};
   for (std::size_t i = 0; i < 3; ++i) change[i] = innovation[i] - jump_[i];
@@ -172,7 +172,7 @@ MeasurementOutcome PoseObserver::follow_jump(const Triple& innovation) {
   }
   axes_[kHeading].set_value(wrap_angle(axes_[kHeading].value()));
   since_measurement_ = 0.0;
-  following_jump_ = !settled;
+  reinitialising_ = !settled;
   return MeasurementOutcome::used;
 }
 

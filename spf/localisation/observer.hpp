@@ -26,9 +26,10 @@ struct StateEstimate {
 
 enum class MeasurementOutcome {
   used,
-  rejected,    ///< an outlier
-  readmitted,  ///< outliers that agree with each other: the estimate jumps to them, or begins to follow them
-  invalid,     ///< not a number, ignored
+  rejected,       ///< an outlier
+  reinitialised,  ///< outliers that agree with each other: the estimate jumps to them, or begins to follow
+                  ///< them
+  invalid,        ///< not a number, ignored
 };
 
 class PoseObserver {
@@ -56,7 +57,7 @@ class PoseObserver {
   void apply(const Triple& innovation);
   MeasurementOutcome reject(const Triple& measured);
   [[nodiscard]] bool is_sensor_jump(const Triple& jump) const;
-  MeasurementOutcome follow_jump(const Triple& innovation);
+  MeasurementOutcome reinitialise_onto(const Triple& innovation);
 
   ObserverParameters parameters_;
   std::array<AxisNoise, 3> noise_;
@@ -69,7 +70,7 @@ class PoseObserver {
   int outliers_in_a_row_ = 0;
   Triple gate_variance_{};  // of the estimate when the first of them came
   // While a jump of the measured pose is followed slowly: what it is still ahead of the estimate, smoothed.
-  bool following_jump_ = false;
+  bool reinitialising_ = false;
   Triple jump_{};
 };
 

@@ -22,12 +22,12 @@ struct Range {
 /// taken as it is written.
 enum class Scale {
   size,                ///< radius of the robot
-  way,                 ///< distance within which it can turn or stop
+  stopping_distance,   ///< distance within which it can turn or stop
   speed,               ///< its speed
   time,                ///< time in which it can get out of the way
   area,                ///< size squared
   velocity_diffusion,  ///< speed^2 / time
-  position_diffusion,  ///< way^2 / time
+  position_diffusion,  ///< stopping_distance^2 / time
 };
 
 /// A unit whose defaults follow the robot; stands in a field list where a unit's name does.
@@ -37,7 +37,7 @@ struct ScaledUnit {
   constexpr operator const char*() const { return name; }  // NOLINT: most visitors only want the name
 };
 inline constexpr ScaledUnit kMetresBySize{"m", Scale::size};
-inline constexpr ScaledUnit kMetresByWay{"m", Scale::way};
+inline constexpr ScaledUnit kMetresByStopping{"m", Scale::stopping_distance};
 inline constexpr ScaledUnit kSpeedByRobot{"m/s", Scale::speed};
 inline constexpr ScaledUnit kSecondsByRobot{"s", Scale::time};
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "spf/planning/braking.hpp"
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 
 namespace spf {
 namespace {
@@ -16,8 +16,8 @@ PlannerParameters at_constant_velocity(PlannerParameters planner) {
 }
 
 bool cut_off(const PlanRequest& request) {
-  const GuideOutcome way = request.guide->outcome();
-  return request.goal_cut_off || way == GuideOutcome::unreachable || way == GuideOutcome::no_free_goal;
+  const CostToGoOutcome way = request.guide->outcome();
+  return request.goal_cut_off || way == CostToGoOutcome::unreachable || way == CostToGoOutcome::no_free_goal;
 }
 
 }  // namespace

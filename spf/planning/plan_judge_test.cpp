@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/trajectory/constant_acceleration.hpp"
 
 namespace spf {
@@ -39,7 +39,7 @@ class PlanJudgeTest : public ::testing::Test {
   OccupancyMap map{GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
-  GuidePath guide{GuidePathParameters{}};
+  CostToGo guide{CostToGoParameters{}};
   PlanRequest request;
   PlanResult result;
   PlanJudge judge{PlannerParameters{}, RobotParameters{}};

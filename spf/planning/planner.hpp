@@ -11,7 +11,7 @@
 
 namespace spf {
 
-class GuidePath;
+class CostToGo;
 
 /// What the last attempt to plan came to.
 enum class PlanOutcome {
@@ -43,7 +43,7 @@ struct PlanRequest {
   std::optional<double> goal_heading;                    ///< [rad], free when absent
   double position_sigma = 0.0;                           ///< [m] own pose and tracking uncertainty per axis
   WorldSnapshot world;
-  const GuidePath* guide = nullptr;       ///< cost-to-go of the map and the goal, up to date
+  const CostToGo* guide = nullptr;        ///< cost-to-go of the map and the goal, up to date
   const Trajectory* committed = nullptr;  ///< plan under way, null after a reset
   bool braking = false;                   ///< the plan under way is a braking one
   bool goal_cut_off = false;              ///< no way leads to the goal; the guide leads as near as one does
@@ -52,7 +52,7 @@ struct PlanRequest {
 
 /// One trajectory that was considered, for display and statistics.
 struct Candidate {
-  enum class Kind { previous, side_a, side_b, manoeuvre, optimised, brake };
+  enum class Kind { previous, side_a, side_b, primitive, optimised, brake };
   Kind kind = Kind::optimised;
   double cost = 0.0;  ///< to compare candidates of one result: in units of the method (see its header)
   double risk = 0.0;  ///< [1] as PlanResult::risk
@@ -65,7 +65,7 @@ struct PlanStats {
   int inner_iterations = 0;  ///< L-BFGS iterations in all runs
   int evaluations = 0;       ///< cost evaluations in all runs
   int searches = 0;          ///< grid searches
-  int manoeuvres = 0;        ///< rolled-out candidates
+  int primitives = 0;        ///< rolled-out candidates
   int side_changes = 0;      ///< in the last seconds, per obstacle the largest
 };
 

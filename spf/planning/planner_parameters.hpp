@@ -70,7 +70,7 @@ struct PlannerParameters {
   double peer_margin = 0.05;     ///< [m] beyond contact with peers, for checks
   double peer_clearance = 0.25;  ///< [m] wanted beyond contact with peers
   double safety_distance = 0.3;  ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
-  double least_sideways =
+  double least_lateral_share =
       0.7;  ///< [1] sine of the least angle between escape direction and way through the field
   int run_evaluations = 60;      ///< [1] deadline of one optimiser run; no setting
   int max_evaluations = 400;     ///< [1] deadline of one plan
@@ -82,7 +82,8 @@ struct PlannerParameters {
   static void visit_fields(Self& self, Visitor&& visit) {
     constexpr Range kLength{0.0, 100.0};
     visit("dynamic_model", self.dynamic_model, "what is assumed about moving obstacles");
-    visit("horizon", self.horizon, kMetresByWay, Range{0.05, 100.0}, "way to the local target (ES2: 7.5)");
+    visit("horizon", self.horizon, kMetresByStopping, Range{0.05, 100.0},
+          "way to the local target (ES2: 7.5)");
     visit("static_margin", self.static_margin, kMetresBySize, kLength,
           "beyond the radius, for search and checks of static obstacles");
     visit("hard_clearance", self.hard_clearance, kMetresBySize, Range{0.001, 100.0},
@@ -93,7 +94,7 @@ struct PlannerParameters {
     visit("peer_clearance", self.peer_clearance, kMetresBySize, Range{0.001, 100.0},
           "wanted beyond contact with them");
     visit("safety_distance", self.safety_distance, kMetresBySize, Range{0.001, 100.0}, "d_saf of eq. 10");
-    visit("least_sideways", self.least_sideways, "1", Range{0.0, 1.0},
+    visit("least_lateral_share", self.least_lateral_share, "1", Range{0.0, 1.0},
           "sine of the least angle between an escape direction and the way through the field; 0 = eq. 11 as "
           "printed");
     visit("max_evaluations", self.max_evaluations, "1", Range{5, 1000000},
@@ -104,7 +105,7 @@ struct PlannerParameters {
   /// No settings, but they follow the robot.
   template <class Self, class Visitor>
   static void visit_constants(Self& self, Visitor&& visit) {
-    visit(self.piece_length, Scale::way, Range{0.01, 100.0});
+    visit(self.piece_length, Scale::stopping_distance, Range{0.01, 100.0});
     visit(self.goal_tolerance, Scale::size, Range{0.0, 100.0});
   }
 };

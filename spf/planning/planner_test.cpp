@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 
 namespace spf {
 namespace {
@@ -25,7 +25,7 @@ class PlanRequestTest : public ::testing::Test {
     request.guide = &guide;
   }
   OccupancyMap map{GridFrame::covering({-5.0, -5.0}, {5.0, 5.0}, 0.1), 2.0};
-  GuidePath guide{GuidePathParameters{}};
+  CostToGo guide{CostToGoParameters{}};
   PlanRequest request;
   PlanResult result;
 };

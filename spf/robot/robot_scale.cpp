@@ -25,7 +25,7 @@ double RobotScale::factor(Scale scale) const {
   switch (scale) {
     case Scale::size:
       return size_;
-    case Scale::way:
+    case Scale::stopping_distance:
       return way_;
     case Scale::speed:
       return speed_;

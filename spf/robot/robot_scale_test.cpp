@@ -17,7 +17,7 @@ struct Numbers {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("margin", self.margin, kMetresBySize, Range{0.0, 0.3}, "margin");
-    visit("way", self.way, kMetresByWay, Range{0.0, 1000.0}, "way");
+    visit("way", self.way, kMetresByStopping, Range{0.0, 1000.0}, "way");
     visit("speed", self.speed, kSpeedByRobot, Range{0.0, 10.0}, "speed");
     visit("patience", self.patience, kSecondsByRobot, Range{0.0, 100.0}, "patience");
     visit("diffusion", self.diffusion, ScaledUnit{"m^2/s^3", Scale::velocity_diffusion}, Range{0.0, 1.0},
@@ -90,7 +90,7 @@ TEST(RobotScale, GivesARobotThatStopsSlowlyMoreTimeAndWay) {
   const RobotScale scale{robot_of(0.3, 1.0, 0.1)};
   EXPECT_EQ(scale.factor(Scale::size), 1.0);
   EXPECT_NEAR(scale.factor(Scale::time), (10.0 + 0.3) / 1.3, 1e-12);
-  EXPECT_NEAR(scale.factor(Scale::way), 10.0, 1e-12);
+  EXPECT_NEAR(scale.factor(Scale::stopping_distance), 10.0, 1e-12);
 }
 
 // Slow robots need as long to leave their place, however well they brake.

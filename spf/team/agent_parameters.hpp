@@ -9,7 +9,7 @@
 
 #include "spf/field/field_parameters.hpp"
 #include "spf/math/parameters.hpp"
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/planning/orca/orca_parameters.hpp"
 #include "spf/planning/planner.hpp"
 #include "spf/planning/planner_parameters.hpp"
@@ -43,7 +43,7 @@ struct AgentParameters {
   TeamParameters team;
   FieldParameters field;
   PlannerParameters planner;
-  GuidePathParameters guide{0.15, 0.2, 10.0};  ///< its clearance counts beyond the robot's radius here
+  CostToGoParameters guide{0.15, 0.2, 10.0};  ///< its clearance counts beyond the robot's radius here
   SpaceTimeParameters space_time;
   OrcaParameters orca;
   TrackerParameters tracker;

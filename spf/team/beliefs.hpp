@@ -56,7 +56,7 @@ class Beliefs {
   PeerTable peer_table_;
   std::vector<ObstacleTrack> tracks_;
   std::vector<int> distrusted_;
-  std::vector<IgnoredDisc> masked_;  // of the observation under way, kept for its memory
+  std::vector<MaskedDisc> masked_;  // of the observation under way, kept for its memory
 };
 
 }  // namespace spf

@@ -7,8 +7,8 @@
 namespace spf {
 namespace {
 
-GuidePathParameters for_robot(const AgentParameters& parameters) {
-  GuidePathParameters guide = parameters.guide;
+CostToGoParameters for_robot(const AgentParameters& parameters) {
+  CostToGoParameters guide = parameters.guide;
   guide.clearance += parameters.robot.radius;
   return guide;
 }
@@ -32,7 +32,7 @@ void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vec
   path_.update(map, goal_world, here);
   // Without a way to the goal the robot goes as near as the shortest way through the walls leads, and waits
   // there.
-  cut_off_ = path_.outcome() == GuideOutcome::unreachable && approaches_cut_off_goal_;
+  cut_off_ = path_.outcome() == CostToGoOutcome::unreachable && approaches_cut_off_goal_;
   if (cut_off_) path_.update(map, last_free_position(map, here), here);
   goal_ = goal_world;
   update_time_ = time;
@@ -57,7 +57,7 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
 }
 
 bool GuidePolicy::way_clear(const OccupancyMap& map, const Eigen::Vector2d& here) {
-  if (!path_.ready() || path_.outcome() == GuideOutcome::unreachable) return false;
+  if (!path_.ready() || path_.outcome() == CostToGoOutcome::unreachable) return false;
   path_.way(here, way_);
   const double clearance =
       path_.parameters().clearance - 0.5 * map.frame().resolution;  // it grazes its corners
@@ -67,11 +67,12 @@ bool GuidePolicy::way_clear(const OccupancyMap& map, const Eigen::Vector2d& here
 }
 
 bool GuidePolicy::goal_out_of_reach(const Eigen::Vector2d& here) const {
-  if (cut_off_ || path_.outcome() == GuideOutcome::unreachable ||
-      path_.outcome() == GuideOutcome::no_free_goal)
+  if (cut_off_ || path_.outcome() == CostToGoOutcome::unreachable ||
+      path_.outcome() == CostToGoOutcome::no_free_goal)
     return true;
   // As near to a goal on blocked ground as the way leads.
-  return path_.outcome() == GuideOutcome::goal_moved && (here - path_.goal_used()).norm() < goal_tolerance_;
+  return path_.outcome() == CostToGoOutcome::goal_moved &&
+         (here - path_.goal_used()).norm() < goal_tolerance_;
 }
 
 }  // namespace spf

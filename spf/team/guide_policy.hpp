@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/team/agent_parameters.hpp"
 
 namespace spf {
@@ -26,7 +26,7 @@ class GuidePolicy {
   /// [s] ... and, while its way stays clear, at most this often.
   static constexpr double kIdlePeriod = 2.0;
 
-  [[nodiscard]] const GuidePath& path() const { return path_; }
+  [[nodiscard]] const CostToGo& path() const { return path_; }
   /// No way leads to the goal, and the guide to the nearest place that one leads to.
   [[nodiscard]] bool cut_off() const { return cut_off_; }
   /// Is the robot at `here` as near to the goal as it can get?
@@ -38,7 +38,7 @@ class GuidePolicy {
 
   bool approaches_cut_off_goal_;
   double goal_tolerance_;  // [m]
-  GuidePath path_;
+  CostToGo path_;
   std::vector<Eigen::Vector2d> way_;     // [m] kept for its memory
   std::optional<Eigen::Vector2d> goal_;  // [m] that the guide stands for
   bool cut_off_ = false;

@@ -59,14 +59,14 @@ TEST(GuidePolicy, LeavesAWalledInGoalToAMethodThatStands) {
   GuidePolicy guide{AgentParameters{}, false, 0.0};
   guide.refresh(0.0, map_of(kRing), kGoal, kHere);
   EXPECT_FALSE(guide.cut_off());
-  EXPECT_EQ(guide.path().outcome(), GuideOutcome::unreachable);
+  EXPECT_EQ(guide.path().outcome(), CostToGoOutcome::unreachable);
   EXPECT_TRUE(guide.goal_out_of_reach(kHere));
 }
 
 TEST(GuidePolicy, AGoalOnBlockedGroundIsOutOfReachOnlyForARobotThatIsAsNearAsItGets) {
   GuidePolicy guide{AgentParameters{}, true, 0.0};
   guide.refresh(0.0, map_of({{{3.0, -1.0}, {5.0, 1.0}}}), {3.2, 0.0}, kHere);
-  ASSERT_EQ(guide.path().outcome(), GuideOutcome::goal_moved);
+  ASSERT_EQ(guide.path().outcome(), CostToGoOutcome::goal_moved);
   EXPECT_FALSE(guide.goal_out_of_reach(kHere));
   EXPECT_TRUE(guide.goal_out_of_reach(guide.path().goal_used()));
 }

@@ -141,9 +141,9 @@ class IdealHost {
     if (ticks_ % 10 == 0) {
       input.observation.emplace();
       input.observation->time = now;
-      for (const TrueMover& mover : movers)
+      for (const TrueMover& obstacle : movers)
         input.observation->detections.push_back(
-            {mover.id, mover.position(now), std::nullopt, mover.radius, 0.0});
+            {obstacle.id, obstacle.position(now), std::nullopt, obstacle.radius, 0.0});
       if (send_scans) input.observation->scan = sweep();
     }
     if (more_input) more_input(now, input);
@@ -187,8 +187,8 @@ class IdealHost {
     place = next;
     const double radius = agent.parameters().robot.radius;
     for (const TrueBox& box : boxes) box_clearance = std::min(box_clearance, box.distance(place) - radius);
-    for (const TrueMover& mover : movers) {
-      const double gap = (mover.position(time()) - place).norm() - radius - mover.radius;
+    for (const TrueMover& obstacle : movers) {
+      const double gap = (obstacle.position(time()) - place).norm() - radius - obstacle.radius;
       mover_clearance = std::min(mover_clearance, gap);
     }
   }

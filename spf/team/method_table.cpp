@@ -60,7 +60,8 @@ std::vector<Method> built_in() {
          agent.tracker.observer.kind = ObserverKind::none;
        }},
       {"orca", "a reactive rule as the yardstick", make_orca},
-      {"space_time", "ours: many manoeuvres against a belief that moves and grows", make_space_time_planner},
+      {"space_time", "ours: many motion primitives against a belief that moves and grows",
+       make_space_time_planner},
   };
 }
 

@@ -66,7 +66,7 @@ TEST_P(AllocationTest, NoneAfterWarmUp) {
       if (counts && !new_goal) allocations.plan += planning.allocations();
       new_goal = false;
       const PlanStats& stats = agent.last_plan().stats;
-      if (counts && (stats.manoeuvres > 1 || stats.optimiser_calls > 1 || GetParam() == std::string{"orca"}))
+      if (counts && (stats.primitives > 1 || stats.optimiser_calls > 1 || GetParam() == std::string{"orca"}))
         ++risky_plans;
       if (agent.status().state == PeerState::arrived) {
         agent.set_goal({ends[++legs % 2], 0.0});

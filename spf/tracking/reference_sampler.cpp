@@ -46,14 +46,14 @@ Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest&
                              : evaluate_held(trajectory, time, parameters.plan_point_interval);
     heading += angle_difference(point.pose.z(), heading);
     point.pose.z() = heading;
-    reference.pose[static_cast<std::size_t>(k)] = point.pose + request.lead * point.twist;
+    reference.pose[static_cast<std::size_t>(k)] = point.pose + request.preview * point.twist;
     reference.twist[static_cast<std::size_t>(k)] = point.twist;
   }
-  if (parameters.self_sampling && 0.0 < request.hold && request.hold < request.dt) {
-    PoseAndTwist next = evaluate(trajectory, request.time + request.hold);
+  if (parameters.self_sampling && 0.0 < request.hold_time && request.hold_time < request.dt) {
+    PoseAndTwist next = evaluate(trajectory, request.time + request.hold_time);
     next.pose.z() = reference.pose[0].z() + angle_difference(next.pose.z(), reference.pose[0].z());
     const Eigen::Vector3d held_mean =
-        (next.pose + request.lead * next.twist - reference.pose[0]) / request.hold;
+        (next.pose + request.preview * next.twist - reference.pose[0]) / request.hold_time;
     const Eigen::Vector3d shift = reference.pose[0] + request.dt * held_mean - reference.pose[1];
     for (std::size_t k = 1; k <= static_cast<std::size_t>(request.steps); ++k) reference.pose[k] += shift;
   }

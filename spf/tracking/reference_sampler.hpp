@@ -36,11 +36,12 @@ struct ReferenceRequest {
   double time = 0.0;  ///< [s] now
   double dt = 0.1;    ///< [s]
   int steps = 5;      ///< H, at most kMaxHorizon
-  double lead = 0.0;  ///< [s] every pose is moved ahead by lead times its velocity (for motors with that lag)
+  double preview =
+      0.0;  ///< [s] every pose is moved ahead by lead times its velocity (for motors with that lag)
   /// [s] for which the first command is held before the next reference, in (0, dt]; 0 = dt. The MPC takes its
   /// first step to last dt; on a curve the first command would then run ahead by half the difference.
   /// Points 1..H are shifted so that the first step has the mean velocity of the time it is held.
-  double hold = 0.0;
+  double hold_time = 0.0;
   Pose2 robot_world;  ///< for the heading's turn count
 };
 

@@ -90,7 +90,7 @@ TEST(ReferenceSampler, HeadingTurnsOnFromTheRobots) {
 
 TEST(ReferenceSampler, LeadMovesPosesAheadByTheirVelocity) {
   ReferenceRequest request = request_at(2.0);
-  request.lead = 0.05;
+  request.preview = 0.05;
   const Reference reference = sample_reference(straight(), request, kKinematics, {});
   EXPECT_NEAR(reference.pose[0].x(), 0.8 * 1.05, 1e-12);
 }
@@ -100,7 +100,7 @@ TEST(ReferenceSampler, FirstStepHasTheMeanVelocityOfTheTimeItIsHeld) {
   Trajectory trajectory{0.0};
   trajectory.append(random_piece(random, 2.0));
   ReferenceRequest request = request_at(0.3);
-  request.hold = 0.05;
+  request.hold_time = 0.05;
   const Reference reference = sample_reference(trajectory, request, kKinematics, {});
   const Eigen::Vector2d held = (trajectory.position(0.35) - trajectory.position(0.3)) / 0.05;
   EXPECT_LT(((reference.pose[1] - reference.pose[0]).head<2>() / 0.1 - held).norm(), 1e-12);

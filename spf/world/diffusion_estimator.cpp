@@ -13,15 +13,15 @@ constexpr double kLongLag = 1.0;        // [s]
 
 // Squares of two axes against their expectation, so 1 on average: 3.5 and 7 sigma.
 constexpr double kClip = 6.0;
-constexpr double kSurprise = 25.0;
+constexpr double kInnovationGate = 25.0;
 
-/// Part of the square that counts: nothing when it is a surprise, unless the one before was a surprise too;
+/// Part of the square that counts: nothing when it is a outlier, unless the one before was a outlier too;
 /// then it is no single event but an expectation that is too low.
-double robust_part(double square, double expected, bool& surprise) {
+double robust_part(double square, double expected, bool& outlier) {
   const double ratio = square / std::max(expected, 1e-12);
-  const bool again = surprise;
-  surprise = ratio > kSurprise;
-  if (surprise) return again ? kSurprise / ratio : 0.0;
+  const bool again = outlier;
+  outlier = ratio > kInnovationGate;
+  if (outlier) return again ? kInnovationGate / ratio : 0.0;
   return ratio > kClip ? kClip / ratio : 1.0;
 }
 
@@ -32,17 +32,17 @@ DiffusionEstimator::DiffusionEstimator(const DiffusionParameters& parameters)
       velocity_diffusion_{parameters.prior_velocity_diffusion},
       position_diffusion_{parameters.prior_position_diffusion} {}
 
-const DiffusionEstimator::Sighting& DiffusionEstimator::history(int age) const {
+const DiffusionEstimator::Sample& DiffusionEstimator::history(int age) const {
   return ring_[static_cast<std::size_t>((newest_ - age + kHistory) % kHistory)];
 }
 
-void DiffusionEstimator::keep(const Sighting& sighting) {
+void DiffusionEstimator::keep(const Sample& sample) {
   newest_ = (newest_ + 1) % kHistory;
-  ring_[static_cast<std::size_t>(newest_)] = sighting;
+  ring_[static_cast<std::size_t>(newest_)] = sample;
   count_ = std::min(count_ + 1, kHistory);
 }
 
-void DiffusionEstimator::break_off() {
+void DiffusionEstimator::restart() {
   count_ = 0;
   has_velocity_step_ = false;
 }
@@ -57,9 +57,9 @@ void DiffusionEstimator::forget(double dt) {
   right_ *= kept;
 }
 
-void DiffusionEstimator::see(double time, const Eigen::Vector2d& position, double position_sigma,
-                             const Eigen::Vector2d& velocity) {
-  const Sighting now{time, position, velocity, position_sigma};
+void DiffusionEstimator::update(double time, const Eigen::Vector2d& position, double position_sigma,
+                                const Eigen::Vector2d& velocity) {
+  const Sample now{time, position, velocity, position_sigma};
   if (count_ > 0 && time > history(0).time) {
     forget(time - history(0).time);
     learn_from_increment(history(0), now);
@@ -68,8 +68,8 @@ void DiffusionEstimator::see(double time, const Eigen::Vector2d& position, doubl
   keep(now);
 }
 
-void DiffusionEstimator::see(double time, const Eigen::Vector2d& position, double position_sigma) {
-  const Sighting now{time, position, Eigen::Vector2d::Zero(), position_sigma};
+void DiffusionEstimator::update(double time, const Eigen::Vector2d& position, double position_sigma) {
+  const Sample now{time, position, Eigen::Vector2d::Zero(), position_sigma};
   if (count_ > 0 && time > history(0).time) {
     const double dt = time - history(0).time;
     mean_interval_ = mean_interval_ > 0.0 ? mean_interval_ + 0.1 * (dt - mean_interval_) : dt;
@@ -81,13 +81,13 @@ void DiffusionEstimator::see(double time, const Eigen::Vector2d& position, doubl
   keep(now);
 }
 
-void DiffusionEstimator::learn_from_increment(const Sighting& last, const Sighting& now) {
+void DiffusionEstimator::learn_from_increment(const Sample& last, const Sample& now) {
   const double dt = now.time - last.time;
   mean_interval_ = mean_interval_ > 0.0 ? mean_interval_ + 0.1 * (dt - mean_interval_) : dt;
   const Eigen::Vector2d step = now.velocity - last.velocity;
   const double square = 0.5 * step.squaredNorm();
   const double part =
-      robust_part(square, velocity_diffusion_ * dt + 2.0 * velocity_noise_, velocity_surprise_);
+      robust_part(square, velocity_diffusion_ * dt + 2.0 * velocity_noise_, velocity_outlier_);
   if (part > 0.0) {
     increment_weight_ += dt;
     increment_time_ += dt;
@@ -101,7 +101,7 @@ void DiffusionEstimator::learn_from_increment(const Sighting& last, const Sighti
   const double noise = last.position_sigma * last.position_sigma + now.position_sigma * now.position_sigma +
                        0.5 * dt * dt * velocity_noise_;
   const double expected = position_diffusion_ * dt;
-  const double left_part = robust_part(0.5 * left.squaredNorm(), expected + noise, position_surprise_);
+  const double left_part = robust_part(0.5 * left.squaredNorm(), expected + noise, position_outlier_);
   if (left_part <= 0.0) return;
   // What a sample says about the diffusion sinks with the noise that it also holds.
   const double trust = expected / (expected + noise);
@@ -109,21 +109,21 @@ void DiffusionEstimator::learn_from_increment(const Sighting& last, const Sighti
   position_square_ += trust * trust * (left_part * 0.5 * left.squaredNorm() - noise);
 }
 
-const DiffusionEstimator::Sighting* DiffusionEstimator::seen_about(double time) const {
-  const Sighting* best = nullptr;
+const DiffusionEstimator::Sample* DiffusionEstimator::sample_near(double time) const {
+  const Sample* best = nullptr;
   for (int age = 0; age < count_; ++age) {
-    const Sighting& sighting = history(age);
-    if (best && std::fabs(sighting.time - time) >= std::fabs(best->time - time)) break;
-    best = &sighting;
+    const Sample& sample = history(age);
+    if (best && std::fabs(sample.time - time) >= std::fabs(best->time - time)) break;
+    best = &sample;
   }
   return best;
 }
 
-void DiffusionEstimator::learn_from_difference(const Sighting& now, double lag) {
-  const Sighting* middle = seen_about(now.time - lag);
+void DiffusionEstimator::learn_from_difference(const Sample& now, double lag) {
+  const Sample* middle = sample_near(now.time - lag);
   if (!middle) return;
   const double late = now.time - middle->time;
-  const Sighting* first = seen_about(middle->time - late);
+  const Sample* first = sample_near(middle->time - late);
   const double early = middle->time - first->time;
   const bool close_enough = late > 0.5 * lag && late < 1.5 * lag && early > 0.5 * late && early < 1.5 * late;
   if (!close_enough) return;
@@ -137,7 +137,7 @@ void DiffusionEstimator::learn_from_difference(const Sighting& now, double lag) 
   const double per_position = late + ratio * ratio * early;
   const double per_velocity = (late * late * late + ratio * ratio * early * early * early) / 3.0;
   const double expected = position_diffusion_ * per_position + velocity_diffusion_ * per_velocity + noise;
-  const double part = robust_part(square, expected, position_surprise_);
+  const double part = robust_part(square, expected, position_outlier_);
   if (part <= 0.0) return;
   // In units of the priors, weighted by the inverse variance of the square. Differences overlap: a new one
   // brings only the part of its span that is new.

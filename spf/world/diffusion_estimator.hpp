@@ -34,7 +34,7 @@ struct DiffusionParameters {
   }
 };
 
-/// Learns from sightings of one obstacle in the order of time. Two ways, by what a sighting holds:
+/// Learns from samples of one obstacle in the order of time. Two ways, by what a sample holds:
 ///  - with velocity: the increments of the velocity, and what is left of the position's increments.
 ///  Neighbouring
 ///    increments that cancel out are noise of the reported velocity, not motion.
@@ -42,16 +42,16 @@ struct DiffusionParameters {
 ///  differently:
 ///    Dp (t2 + r^2 t1) + Dv (t2^3 + r^2 t1^3) / 3 + (1 + (1 + r)^2 + r^2) sigma^2, r = t2 / t1, fitted by
 ///    least squares.
-/// Single surprises (a bounce off a wall) are clipped or left out, so that they do not count as restlessness.
+/// Single outliers (a bounce off a wall) are clipped or left out, so that they do not count as restlessness.
 class DiffusionEstimator {
  public:
   explicit DiffusionEstimator(const DiffusionParameters& parameters = {});
 
-  void see(double time, const Eigen::Vector2d& position, double position_sigma,
-           const Eigen::Vector2d& velocity);
-  void see(double time, const Eigen::Vector2d& position, double position_sigma);
+  void update(double time, const Eigen::Vector2d& position, double position_sigma,
+              const Eigen::Vector2d& velocity);
+  void update(double time, const Eigen::Vector2d& position, double position_sigma);
   /// The motion before now has ended (a bounce): differences across it mean nothing.
-  void break_off();
+  void restart();
 
   [[nodiscard]] double velocity_diffusion() const { return velocity_diffusion_; }  ///< [(m/s)^2/s]
   [[nodiscard]] double position_diffusion() const { return position_diffusion_; }  ///< [m^2/s]
@@ -60,7 +60,7 @@ class DiffusionEstimator {
   }  ///< [(m/s)^2] of reported velocities
 
  private:
-  struct Sighting {
+  struct Sample {
     double time = 0.0;
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
@@ -69,12 +69,12 @@ class DiffusionEstimator {
   static constexpr int kHistory = 128;
 
   void forget(double dt);
-  void learn_from_increment(const Sighting& last, const Sighting& now);
-  void learn_from_difference(const Sighting& now, double lag);
-  void keep(const Sighting& sighting);
+  void learn_from_increment(const Sample& last, const Sample& now);
+  void learn_from_difference(const Sample& now, double lag);
+  void keep(const Sample& sample);
   void solve();
-  [[nodiscard]] const Sighting& history(int age) const;
-  [[nodiscard]] const Sighting* seen_about(double time) const;
+  [[nodiscard]] const Sample& history(int age) const;
+  [[nodiscard]] const Sample* sample_near(double time) const;
 
   DiffusionParameters parameters_;
   double velocity_diffusion_;
@@ -90,14 +90,14 @@ class DiffusionEstimator {
   double position_square_ = 0.0;
   Eigen::Vector2d velocity_step_ = Eigen::Vector2d::Zero();  // [m/s] the increment before
   bool has_velocity_step_ = false;
-  bool velocity_surprise_ = false;  // the sample before was one
-  bool position_surprise_ = false;
+  bool velocity_outlier_ = false;  // the sample before was one
+  bool position_outlier_ = false;
   double mean_interval_ = 0.0;  // [s]
   Eigen::Matrix2d normal_ =
       Eigen::Matrix2d::Zero();  // least squares in units of the priors: (position, velocity)
   Eigen::Vector2d right_ = Eigen::Vector2d::Zero();
 
-  std::array<Sighting, kHistory> ring_;
+  std::array<Sample, kHistory> ring_;
   int newest_ = 0;
   int count_ = 0;
 };

@@ -8,9 +8,9 @@
 namespace spf {
 namespace {
 
-constexpr double kDriftLimit = 3.0;  // [1] sigmas; a larger drift means a new motion (a bounce)
-constexpr double kDriftKept = 0.7;   // [1] from one innovation to the next: a drift shows within three
-constexpr double kOneEvent = 2.0;    // [s] surprises closer than this are no single event
+constexpr double kDriftLimit = 3.0;       // [1] sigmas; a larger cusum means a new motion (a bounce)
+constexpr double kCusumForgetting = 0.7;  // [1] from one innovation to the next: a cusum shows within three
+constexpr double kOneEvent = 2.0;         // [s] changes closer than this are no single event
 
 bool well_formed(const Detection& detection) {
   const bool numbers = believable(detection.position_world) && believable(detection.radius) &&
@@ -111,10 +111,11 @@ void ObstacleTracker::begin_track(std::size_t slot, const Detection& detection, 
   if (detection.velocity_world) {
     track.state.velocity_world = *detection.velocity_world;
     track.velocity_variance = parameters_.least_sigma * parameters_.least_sigma;
-    memory.diffusion.see(time, detection.position_world, detection.position_sigma, *detection.velocity_world);
+    memory.diffusion.update(time, detection.position_world, detection.position_sigma,
+                            *detection.velocity_world);
   } else {
     track.velocity_variance = parameters_.initial_speed * parameters_.initial_speed;
-    memory.diffusion.see(time, detection.position_world, detection.position_sigma);
+    memory.diffusion.update(time, detection.position_world, detection.position_sigma);
   }
   track.position_diffusion = memory.diffusion.position_diffusion();
   track.velocity_diffusion = memory.diffusion.velocity_diffusion();
@@ -134,18 +135,19 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   const double velocity_noise = std::max(memory.diffusion.velocity_noise(), least);
   const double limit = 2.0 * kDriftLimit * kDriftLimit;  // two axes
   Eigen::Vector2d innovation = detection.position_world - track.state.position_world;
-  memory.drift = kDriftKept * memory.drift + innovation / std::sqrt(track.position_variance + position_noise);
-  bool surprised = (1.0 - kDriftKept * kDriftKept) * memory.drift.squaredNorm() > limit;
+  memory.cusum =
+      kCusumForgetting * memory.cusum + innovation / std::sqrt(track.position_variance + position_noise);
+  bool changed = (1.0 - kCusumForgetting * kCusumForgetting) * memory.cusum.squaredNorm() > limit;
   if (detection.velocity_world) {
     const Eigen::Vector2d change = *detection.velocity_world - track.state.velocity_world;
-    surprised = surprised || change.squaredNorm() > limit * (track.velocity_variance + velocity_noise);
+    changed = changed || change.squaredNorm() > limit * (track.velocity_variance + velocity_noise);
   }
-  if (surprised) {
-    ++stats_.surprises;
+  if (changed) {
+    ++stats_.changes;
     // Once is a bounce; again and again is restlessness, which is to be learnt.
-    if (time - memory.last_surprise > kOneEvent) memory.diffusion.break_off();
-    memory.last_surprise = time;
-    memory.drift.setZero();
+    if (time - memory.last_change > kOneEvent) memory.diffusion.restart();
+    memory.last_change = time;
+    memory.cusum.setZero();
     // What turned round has changed its velocity by up to twice its speed.
     const double speed = std::max(parameters_.initial_speed, 2.0 * track.state.velocity_world.norm());
     track.velocity_variance += speed * speed;
@@ -162,9 +164,10 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
 
   // 4. learn
   if (detection.velocity_world) {
-    memory.diffusion.see(time, detection.position_world, detection.position_sigma, *detection.velocity_world);
+    memory.diffusion.update(time, detection.position_world, detection.position_sigma,
+                            *detection.velocity_world);
   } else {
-    memory.diffusion.see(time, detection.position_world, detection.position_sigma);
+    memory.diffusion.update(time, detection.position_world, detection.position_sigma);
   }
   track.position_diffusion = memory.diffusion.position_diffusion();
   track.velocity_diffusion = memory.diffusion.velocity_diffusion();

@@ -41,7 +41,7 @@ struct ObstacleTrackerStats {
   std::uint64_t accepted = 0;   ///< detections that updated a track
   std::uint64_t malformed = 0;  ///< not believable, or a radius or sigma out of range
   std::uint64_t stale = 0;      ///< not newer than the track
-  std::uint64_t surprises = 0;  ///< sudden changes of motion
+  std::uint64_t changes = 0;    ///< sudden changes of motion
   std::uint64_t dropped = 0;    ///< tracks that timed out
   std::uint64_t crowded = 0;    ///< detections of one more obstacle than kMostTracks
 };
@@ -62,9 +62,9 @@ class ObstacleTracker {
  private:
   /// What a track needs beside what others see of it; memories_[k] belongs to tracks_[k].
   struct Memory {
-    double last_seen = 0.0;       // [s]
-    double last_surprise = -1e9;  // [s]
-    Eigen::Vector2d drift =
+    double last_seen = 0.0;     // [s]
+    double last_change = -1e9;  // [s]
+    Eigen::Vector2d cusum =
         Eigen::Vector2d::Zero();  // fading sum of innovations, each in its standard deviation
     DiffusionEstimator diffusion;
   };

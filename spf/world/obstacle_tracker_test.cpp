@@ -167,7 +167,7 @@ TEST(ObstacleTracker, ABounceIsNoRestlessness) {
     EXPECT_LT(tracker.tracks().front().velocity_diffusion, 1.5 * before);
     // 2 s later the new velocity is known: to three standard deviations of the filter, or 0.3 m/s.
     EXPECT_LT((tracker.tracks().front().state.velocity_world - obstacle.velocity()).norm(), 0.4);
-    EXPECT_GT(tracker.stats().surprises, 0u);
+    EXPECT_GT(tracker.stats().changes, 0u);
   }
 }
 

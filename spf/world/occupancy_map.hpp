@@ -20,7 +20,7 @@
 namespace spf {
 
 /// A disc whose scan returns are explained by something else (a tracked obstacle, a peer) and are not static.
-struct IgnoredDisc {
+struct MaskedDisc {
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();
   double radius = 0.0;
 };
@@ -44,14 +44,14 @@ class OccupancyMap {
   void add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
   /// Enters one sweep of the range sensor taken at `sensor_pose_world`: cells crossed by beams become free,
-  /// cells with returns occupied (log odds), unless the return lies in an ignored disc or within half a cell
+  /// cells with returns occupied (log odds), unless the return lies in an masked disc or within half a cell
   /// of a known shape. Ranges that are NaN, -infinity or not positive are skipped; +infinity, or beyond
   /// max_range, is "nothing there". Time is bounded whatever the sweep holds: beams are followed across the
   /// grid at most, and less far where all of them together would cross more than 2 * 10^7 cells. A sweep of
   /// more than kMostBeams, from a place farther from the grid than the grid is long, or with numbers that are
   /// not finite, enters nothing.
   void integrate(const RangeScan& scan, const Pose2& sensor_pose_world,
-                 const std::vector<IgnoredDisc>& ignored);
+                 const std::vector<MaskedDisc>& masked);
 
   /// Distance from a point to the nearest static surface [m], bilinear between nodes, negative inside known
   /// shapes, at most max_distance(). Outside the grid: the value at the nearest place of the grid. Beside a
@@ -102,10 +102,10 @@ class OccupancyMap {
   template <class SignedDistance>
   void add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,
                  const SignedDistance& signed_distance);
-  [[nodiscard]] bool explained_by_known(const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] bool on_known_surface(const Eigen::Vector2d& position_world) const;
   [[nodiscard]] double reach_of(const RangeScan& scan) const;
   void collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world, double reach,
-                     const std::vector<IgnoredDisc>& ignored);
+                     const std::vector<MaskedDisc>& masked);
 
   GridFrame frame_;
   double max_distance_;

@@ -213,7 +213,7 @@ TEST(OccupancyMap, GrazingBeamsDoNotWearAwayAWall) {
   }
 }
 
-TEST(OccupancyMap, IgnoredDiscsAreNeitherMarkedNorSeenThrough) {
+TEST(OccupancyMap, MaskedDiscsAreNeitherMarkedNorSeenThrough) {
   OccupancyMap map = map_of(5.0);
   const std::vector<double> wall(90, 3.0);
   for (int k = 0; k < 5; ++k) map.integrate(sweep_of(wall), Pose2{}, {});

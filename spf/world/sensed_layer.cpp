@@ -20,8 +20,8 @@ std::int16_t quantised_offset(double offset, double resolution) {
 
 /// Whether the surface that beams `index` and `other` have met runs through a place: within `tolerance` of
 /// the line through both returns, and not farther along it than they are apart from each other, twice.
-bool explained_by_pair(const Eigen::Vector2d& from_sensor, const std::vector<SensedBeam>& beams,
-                       std::size_t index, std::size_t other, double tolerance) {
+bool interpolated_by_pair(const Eigen::Vector2d& from_sensor, const std::vector<SensedBeam>& beams,
+                          std::size_t index, std::size_t other, double tolerance) {
   if (other >= beams.size() || !beams[index].returned || !beams[other].returned) return false;
   const Eigen::Vector2d end = beams[index].length * beams[index].direction_world;
   const Eigen::Vector2d along = beams[other].length * beams[other].direction_world - end;
@@ -40,8 +40,8 @@ bool contradicts(const Eigen::Vector2d& hit_from_sensor, const std::vector<Sense
       hit_from_sensor.x() * beam.direction_world.y() - hit_from_sensor.y() * beam.direction_world.x();
   if (std::fabs(beside) > 0.25 * resolution || beam.length < along + resolution) return false;
   // index - 1 of the first beam wraps to a number past the end.
-  return !explained_by_pair(hit_from_sensor, beams, index, index + 1, 0.5 * resolution) &&
-         !explained_by_pair(hit_from_sensor, beams, index, index - 1, 0.5 * resolution);
+  return !interpolated_by_pair(hit_from_sensor, beams, index, index + 1, 0.5 * resolution) &&
+         !interpolated_by_pair(hit_from_sensor, beams, index, index - 1, 0.5 * resolution);
 }
 
 }  // namespace

@@ -18,11 +18,11 @@ int main(int argc, char** argv) {
   try {
     std::vector<spf::Setting> settings;
     for (int i = 2; i < argc; ++i) settings.push_back({argv[i], "argument " + std::to_string(i)});
-    const spf::Study study = spf::read_study(argv[1], settings);
-    spf::RobotFile file = spf::default_robot_file(study.method, study.robot);
-    file.host.map_resolution = study.simulation.sensing.map_resolution;
-    file.host.map_reach = study.simulation.sensing.map_max_distance;
-    file.agent = spf::sim::agent_parameters_for(spf::make_trial(study, 0), spf::agent_parameters(study));
+    const spf::RunConfiguration config = spf::read_run_configuration(argv[1], settings);
+    spf::RobotFile file = spf::default_robot_file(config.method, config.robot);
+    file.host.map_resolution = config.simulation.sensing.map_resolution;
+    file.host.map_reach = config.simulation.sensing.map_max_distance;
+    file.agent = spf::sim::agent_parameters_for(spf::make_trial(config, 0), spf::agent_parameters(config));
     std::cout << spf::to_yaml_text(file, true);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

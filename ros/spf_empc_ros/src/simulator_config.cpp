@@ -69,10 +69,10 @@ void read_scenario(const ros::NodeHandle& own, SimulatorConfig& config, std::str
     return;
   }
   try {
-    const spf::Study study = spf::read_study(path, overrides(own));
-    config.scenario = spf::make_trial(study, own.param("trial", 0));
-    config.control_period = study.agent.tracker.control_period;
-    config.map_resolution = 0.5 * study.simulation.sensing.map_resolution;
+    const spf::RunConfiguration run = spf::read_run_configuration(path, overrides(own));
+    config.scenario = spf::make_trial(run, own.param("trial", 0));
+    config.control_period = run.agent.tracker.control_period;
+    config.map_resolution = 0.5 * run.simulation.sensing.map_resolution;
   } catch (const std::exception& error) {
     problems += std::string{"\n"} + error.what();
   }

@@ -286,9 +286,9 @@ visualization_msgs::MarkerArray world_markers(const World& world, const Stamp& s
   for (std::size_t i = 0; i < world.robots().size(); ++i) add_robot(world, i, markers);
   const ros::Duration gone_after{0.5};
   visualization_msgs::MarkerArray result;
-  for (const spf::sim::Mover& mover : world.movers())
-    markers.disc(mover.person ? "person" : "disc", mover.id, mover.motion.at(world.share()), mover.radius,
-                 0.4, mover.person ? color(0.85F, 0.5F, 0.1F) : color(0.8F, 0.25F, 0.2F));
+  for (const spf::sim::DynamicObstacle& obstacle : world.dynamic_obstacles())
+    markers.disc(obstacle.person ? "person" : "disc", obstacle.id, obstacle.motion.at(world.share()),
+                 obstacle.radius, 0.4, obstacle.person ? color(0.85F, 0.5F, 0.1F) : color(0.8F, 0.25F, 0.2F));
   result = markers.take();
   for (visualization_msgs::Marker& marker : result.markers)
     if (marker.ns == "person") marker.lifetime = gone_after;  // people leave

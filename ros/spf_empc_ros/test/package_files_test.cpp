@@ -14,15 +14,15 @@ TEST(RobotYaml, IsTheRobotOfTheScenarios) {
   expected.method = "space_time";
   expected.agent = spf::with_method(expected.agent, expected.method.method());
   EXPECT_EQ(spf::to_yaml_text(spf::read_robot_file(kConfig + "robot.yaml")), spf::to_yaml_text(expected));
-  const spf::Study study = spf::read_study(kConfig + "fleet.yaml");
+  const spf::RunConfiguration config = spf::read_run_configuration(kConfig + "fleet.yaml");
   spf::RobotFile of_scenario = expected;
-  of_scenario.robot = study.robot;
+  of_scenario.robot = config.robot;
   EXPECT_EQ(spf::to_yaml_text(of_scenario), spf::to_yaml_text(expected));
 }
 
 TEST(FleetYaml, HasTheRobotsThatFleetLaunchStarts) {
-  const spf::Study study = spf::read_study(kConfig + "fleet.yaml");
-  EXPECT_EQ(spf::make_trial(study, 0).robots.size(), 5U);
+  const spf::RunConfiguration config = spf::read_run_configuration(kConfig + "fleet.yaml");
+  EXPECT_EQ(spf::make_trial(config, 0).robots.size(), 5U);
 }
 
 }  // namespace

@@ -184,9 +184,10 @@ TEST(WorldMarkers, ShowEveryBodyWhereItIs) {
   EXPECT_EQ(count_of("border"), 1);
   for (const visualization_msgs::Marker& marker : array.markers) {
     if (marker.ns != "disc") continue;
-    const spf::sim::Mover& mover = world.movers()[static_cast<std::size_t>(marker.id)];
-    EXPECT_EQ(marker.pose.position.x, mover.motion.from.x());
-    EXPECT_EQ(marker.scale.x, 2.0 * mover.radius);
+    const spf::sim::DynamicObstacle& obstacle =
+        world.dynamic_obstacles()[static_cast<std::size_t>(marker.id)];
+    EXPECT_EQ(marker.pose.position.x, obstacle.motion.from.x());
+    EXPECT_EQ(marker.scale.x, 2.0 * obstacle.radius);
   }
 }
 

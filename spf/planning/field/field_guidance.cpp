@@ -51,8 +51,8 @@ void put(const GuidePair& pair, std::vector<GuidePair>& pairs) {
 
 }  // namespace
 
-FieldGuidance::FieldGuidance(double safety_distance, double least_sideways)
-    : safety_distance_{safety_distance}, least_sideways_{least_sideways} {
+FieldGuidance::FieldGuidance(double safety_distance, double least_lateral_share)
+    : safety_distance_{safety_distance}, least_lateral_share_{least_lateral_share} {
   memory_.reserve(kMemorySize);
 }
 
@@ -152,10 +152,10 @@ GuidePair FieldGuidance::inner_pair(const DangerRegion& region, const Eigen::Vec
     direction = mirrored_direction(direction, choice.along);
   }
   const double sideways = direction.dot(side);
-  if (sideways < least_sideways_) {
+  if (sideways < least_lateral_share_) {
     const double forward = direction.dot(choice.along) < 0.0 ? -1.0 : 1.0;
-    const double rest = std::sqrt(1.0 - least_sideways_ * least_sideways_);
-    direction = forward * rest * choice.along + least_sideways_ * side;
+    const double rest = std::sqrt(1.0 - least_lateral_share_ * least_lateral_share_);
+    direction = forward * rest * choice.along + least_lateral_share_ * side;
   }
   GuidePair pair;
   pair.source = region.id;

@@ -35,10 +35,10 @@ struct SideChoice {
 
 class FieldGuidance {
  public:
-  /// `safety_distance`: d_saf of eq. 10. `least_sideways`: sine of the least angle between a guide direction
-  /// and the line of symmetry. Along the line no side is gained, and a point on the obstacle's axis would
-  /// never leave it (paper_notes 37).
-  FieldGuidance(double safety_distance, double least_sideways);
+  /// `safety_distance`: d_saf of eq. 10. `least_lateral_share`: sine of the least angle between a guide
+  /// direction and the line of symmetry. Along the line no side is gained, and a point on the obstacle's axis
+  /// would never leave it (paper_notes 37).
+  FieldGuidance(double safety_distance, double least_lateral_share);
 
   /// Conflicts of the nodes 1 .. last_node, once per region, in the order of their first node.
   void find_conflicts(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
@@ -81,7 +81,7 @@ class FieldGuidance {
                                           int first, int last, const FlatState& head) const;
 
   double safety_distance_;
-  double least_sideways_;
+  double least_lateral_share_;
   std::vector<Memory> memory_;
 };
 

@@ -71,7 +71,7 @@ FieldPlanner::FieldPlanner(const PlannerParameters& planner, const RobotParamete
       robot_{within_wheel_limits(validated(robot))},
       kinematics_{robot},
       clearance_{planner, robot, validated(field)},
-      guidance_{planner.safety_distance, planner.least_sideways},
+      guidance_{planner.safety_distance, planner.least_lateral_share},
       finder_{planner.max_pieces * planner.nodes_per_piece + 1},
       search_{detour_search()},
       seeds_{planner, robot_},
@@ -94,14 +94,14 @@ void FieldPlanner::plan(const PlanRequest& request, PlanResult& result) {
     stand_instead(request, robot_, PlanOutcome::invalid_request, result);
     return;
   }
-  const GuidePath& guide = *request.guide;
+  const CostToGo& guide = *request.guide;
   // 2. Peers, obstacles and their fields as believed now.
   prepare(request);
   brake_ = braking_trajectory(request.head, request.heading, request.time, robot_);
-  const GuideOutcome way = guide.outcome();
-  const bool no_field = way == GuideOutcome::no_free_goal;
+  const CostToGoOutcome way = guide.outcome();
+  const bool no_field = way == CostToGoOutcome::no_free_goal;
   if (!no_field && stands_at_goal(request, result)) return;
-  if (no_field || way == GuideOutcome::unreachable) {
+  if (no_field || way == CostToGoOutcome::unreachable) {
     conclude(request, PlanOutcome::no_path, result);
     return;
   }

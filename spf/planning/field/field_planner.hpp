@@ -7,11 +7,11 @@
 
 #include "spf/field/field_parameters.hpp"
 #include "spf/planning/clearance.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/planning/field/field_guidance.hpp"
 #include "spf/planning/field/grid_search.hpp"
 #include "spf/planning/field/guide_pairs.hpp"
 #include "spf/planning/field/seeds.hpp"
-#include "spf/planning/guide_path.hpp"
 #include "spf/planning/planner.hpp"
 #include "spf/planning/planner_parameters.hpp"
 #include "spf/planning/trajectory_optimizer.hpp"

@@ -68,8 +68,8 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
 void FieldReplanning::look_for_way_out(const PlanRequest& request) {
   in_fields_ = replanning_.retreat && check_.field_clearance(request.head.position_world) < 0.0;
   if (!in_fields_) return;
-  way_out_ = best_evasion(request.head, request.heading, request.time, request.time + kEvasionHorizon, check_,
-                          robot_);
+  way_out_ = best_emergency_manoeuvre(request.head, request.heading, request.time,
+                                      request.time + kEvasionHorizon, check_, robot_);
 }
 
 bool FieldReplanning::plan_due(const PlanRequest& request, const Threat& threat) const {
@@ -124,7 +124,7 @@ void FieldReplanning::attempt(const PlanRequest& request, const Threat& threat, 
 }
 
 void FieldReplanning::name_blocker(const PlanRequest& request, PlanResult& result) const {
-  const GuidePath& guide = *request.guide;
+  const CostToGo& guide = *request.guide;
   const bool named = result.blocking_track >= 0 || result.blocking_peer >= 0;
   if (named || !guide.ready() || result.outcome == PlanOutcome::no_path) return;
   const double step = 0.5 * robot_.radius;
@@ -155,12 +155,13 @@ void FieldReplanning::fail(const PlanRequest& request, const Threat& threat, Pla
   if (request.committed != nullptr && !threat.urgent) return keep(request, result);
   if (threat.report.kind == ConflictKind::obstacle) result.blocking_track = threat.report.id;
   if (threat.report.kind == ConflictKind::peer) result.blocking_peer = threat.report.id;
-  const Evasion evasion = in_fields_ ? way_out_
-                                     : best_evasion(request.head, request.heading, request.time,
-                                                    request.time + kEvasionHorizon, check_, robot_);
-  if (evasion.sidestep && replanning_.retreat) {
+  const EmergencyManoeuvre manoeuvre =
+      in_fields_ ? way_out_
+                 : best_emergency_manoeuvre(request.head, request.heading, request.time,
+                                            request.time + kEvasionHorizon, check_, robot_);
+  if (manoeuvre.sidestep && replanning_.retreat) {
     result.action = PlanAction::brake;
-    result.trajectory = evasion.trajectory;
+    result.trajectory = manoeuvre.trajectory;
     return;
   }
   if (request.braking) return keep(request, result);  // it brakes, or stands, already

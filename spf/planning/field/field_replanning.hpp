@@ -3,7 +3,7 @@
 // robot brakes for every peer here, whatever its rank. Candidates are compared by eq. 9 [1].
 #pragma once
 
-#include "spf/planning/field/evasion.hpp"
+#include "spf/planning/field/emergency_manoeuvre.hpp"
 #include "spf/planning/field/field_planner.hpp"
 #include "spf/planning/field/replanning_parameters.hpp"
 
@@ -47,9 +47,9 @@ class FieldReplanning final : public Planner {
 
   RobotParameters robot_;
   ReplanningParameters replanning_;
-  double horizon_;          // [m] of the planner
-  Evasion way_out_;         // of the fields that hold the robot; of this check
-  bool in_fields_ = false;  // they do
+  double horizon_;              // [m] of the planner
+  EmergencyManoeuvre way_out_;  // of the fields that hold the robot; of this check
+  bool in_fields_ = false;      // they do
   FieldPlanner planner_;
   ClearanceModel check_;  // against all peers
   Attempt last_;

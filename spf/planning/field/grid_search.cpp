@@ -44,13 +44,13 @@ GridSearchResult GridSearch::search(const OccupancyMap& map, const GridSearchReq
   }
   offer(start, -1, 0.0F, goal);
   result.outcome = GridSearchOutcome::no_path;
-  const auto dearer = [](const Entry& a, const Entry& b) { return a.total > b.total; };
+  const auto costlier = [](const Entry& a, const Entry& b) { return a.total > b.total; };
   while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end(), dearer);
+    std::pop_heap(heap_.begin(), heap_.end(), costlier);
     const Entry entry = heap_.back();
     heap_.pop_back();
     std::uint8_t& closed = closed_[static_cast<std::size_t>(entry.node)];
-    if (closed) continue;  // an older, dearer entry
+    if (closed) continue;  // an older, costlier entry
     closed = 1;
     if (entry.node == goal) {
       result.outcome = GridSearchOutcome::found;

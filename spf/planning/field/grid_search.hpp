@@ -1,5 +1,5 @@
 // Shortest ways over the nodes of an occupancy map that keep a clearance: A* with eight neighbours. For local
-// detours (guide pairs of the base planner); the way to the goal as a whole is GuidePath's. Frame: world.
+// detours (guide pairs of the base planner); the way to the goal as a whole is CostToGo's. Frame: world.
 #pragma once
 
 #include <Eigen/Core>

@@ -32,7 +32,7 @@ Eigen::Vector2d SeedMaker::on_way(double distance) const {
   return way_.back();
 }
 
-LocalTarget SeedMaker::local_target(const PlanRequest& request, const GuidePath& guide,
+LocalTarget SeedMaker::local_target(const PlanRequest& request, const CostToGo& guide,
                                     const ClearanceModel& clearance, double horizon) {
   way_.clear();
   guide.way(request.head.position_world, way_);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "spf/planning/clearance.hpp"
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/planning/planner.hpp"
 #include "spf/planning/trajectory_optimizer.hpp"
 
@@ -36,7 +36,7 @@ class SeedMaker {
 
   /// The place after `horizon` metres of the guide path, or the goal when it is nearer. A place on the way
   /// that is not free (static, or something stands there) is moved along the path, backwards first.
-  [[nodiscard]] LocalTarget local_target(const PlanRequest& request, const GuidePath& guide,
+  [[nodiscard]] LocalTarget local_target(const PlanRequest& request, const CostToGo& guide,
                                          const ClearanceModel& clearance, double horizon);
 
   /// Fills the seed; false when this kind does not apply (nothing committed, or its end has passed). Call

@@ -24,7 +24,7 @@ struct OrcaParameters {
           "a velocity must be free of contact with what moves for this long, tau of the publication");
     visit("time_horizon_static", self.time_horizon_static, kSecondsByRobot, Range{0.05, 60.0},
           "likewise for static surfaces");
-    visit("neighbour_distance", self.neighbour_distance, kMetresByWay, Range{0.0, 1000.0},
+    visit("neighbour_distance", self.neighbour_distance, kMetresByStopping, Range{0.0, 1000.0},
           "gap beyond which others do not count");
     visit("max_neighbours", self.max_neighbours, "1", Range{0, 1000}, "nearest others that count");
     visit("obstacle_share", self.obstacle_share, "1", Range{0.0, 1.0},

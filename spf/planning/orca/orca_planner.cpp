@@ -6,7 +6,7 @@
 
 #include "spf/math/angles.hpp"
 #include "spf/math/plane.hpp"
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/trajectory/constant_acceleration.hpp"
 
 namespace spf {
@@ -199,17 +199,17 @@ void OrcaPlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.action = PlanAction::follow;
   // 4. For the record.
   result.risk = choice.feasible ? 0.0 : 1.0;
-  result.stats.manoeuvres = 1;
+  result.stats.primitives = 1;
   name_what_blocks(wanted, result);
   judge_.judge(request, result.trajectory.end_time(), result);
   if (!request.keep_candidates) return;
   const double departure = (choice.velocity - wanted).norm();
-  result.candidates.push_back({Candidate::Kind::manoeuvre, departure, result.risk, true, result.trajectory});
+  result.candidates.push_back({Candidate::Kind::primitive, departure, result.risk, true, result.trajectory});
 }
 
 /// Along the guide at max_speed, but stoppable at the goal.
 Eigen::Vector2d OrcaPlanner::wanted_velocity(const PlanRequest& request) const {
-  const GuidePath& guide = *request.guide;
+  const CostToGo& guide = *request.guide;
   const Eigen::Vector2d& position = request.head.position_world;
   const double distance = guide.cost_to_go(position);
   if (distance < parameters_.goal_tolerance) return Eigen::Vector2d::Zero();

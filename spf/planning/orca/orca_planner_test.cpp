@@ -8,7 +8,7 @@
 
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/testing/allocation_guard.hpp"
 
 namespace spf {
@@ -211,7 +211,7 @@ class OrcaPlannerTest : public ::testing::Test {
  protected:
   struct Robot {
     OrcaPlanner planner;
-    GuidePath guide;
+    CostToGo guide;
     Vector2d goal;
     Trajectory committed;
     PlanResult result;
@@ -224,7 +224,7 @@ class OrcaPlannerTest : public ::testing::Test {
   }
   Robot robot_at(const Vector2d& start, const Vector2d& goal, const OrcaParameters& parameters) const {
     Robot made{OrcaPlanner{parameters, robot},
-               GuidePath{GuidePathParameters{}},
+               CostToGo{CostToGoParameters{}},
                goal,
                Trajectory::standing(start, 0.0, 1.0),
                {}};
@@ -466,7 +466,7 @@ TEST_F(OrcaPlannerTest, AnswersAnUnusableRequestWithSomethingUsable) {
   EXPECT_EQ(robot_a.result.outcome, PlanOutcome::invalid_request);
   EXPECT_EQ(robot_a.result.trajectory.tail_position(), Vector2d(1.0, 2.0));
 
-  const GuidePath not_ready{GuidePathParameters{}};
+  const CostToGo not_ready{CostToGoParameters{}};
   request = request_of(robot_a, 0, 0.5);
   request.guide = &not_ready;
   robot_a.planner.plan(request, robot_a.result);

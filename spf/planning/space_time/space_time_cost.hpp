@@ -1,7 +1,7 @@
 // Cost of the space-time field (our addition; docs/space_time.md): the chance of contact with what moves,
 // asked at the node's own time, and with static surfaces by their distance. Frame: world.
 //   P = price / exposure (sum_e w_e(t) Phi((R_e - d_e(t)) / sigma_e(t)) + Phi(-c / sigma_s)) [1/s]
-// with d_e the distance to the mean of entity e at time t, w_e its fading, weight and size factor, c the
+// with d_e the distance to the mean of agent e at time t, w_e its discount, weight and size factor, c the
 // clearance of the static map beyond what is wanted. Means and spreads are linear between the steps of
 // SpaceTimeRisk, and the gradients are exact for that interpolation.
 #pragma once

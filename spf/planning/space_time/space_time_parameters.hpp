@@ -6,26 +6,26 @@
 namespace spf {
 
 struct SpaceTimeParameters {
-  double horizon = 3.0;         ///< [s] looked ahead
-  double step = 0.1;            ///< [s] between samples of a roll-out
-  int headings = 16;            ///< [1] directions of the sidesteps
-  double short_sidestep = 0.7;  ///< [s] then towards the goal, or brake
-  double long_sidestep = 1.6;   ///< [s] then towards the goal
-  double risk_price = 1000.0;   ///< [s] travel time worth one certain contact
-  double risk_fading = 0.7;     ///< [s] a risk this far ahead counts 1/e: there is time to plan again
-  double accepted_risk = 0.02;  ///< [s] the direct way is taken at once below this
-  double keep_bonus = 0.05;     ///< [s] in favour of the plan under way
-  double stand_bonus = 0.3;     ///< [s] in favour of standing while slow: a blocked robot shall not fidget
-  double margin = 0.1;          ///< [m] added to the radii towards moving obstacles
-  double static_margin = 0.02;  ///< [m] added to the robot's radius towards the static map
-  double static_sigma = 0.02;   ///< [m] softness of static surfaces
-  double sigma_floor = 0.03;    ///< [m] smallest uncertainty of a moving obstacle
-  double peer_sigma = 0.02;     ///< [m] uncertainty of a peer's plan now
+  double horizon = 3.0;            ///< [s] looked ahead
+  double step = 0.1;               ///< [s] between samples of a roll-out
+  int headings = 16;               ///< [1] directions of the sidesteps
+  double short_sidestep = 0.7;     ///< [s] then towards the goal, or brake
+  double long_sidestep = 1.6;      ///< [s] then towards the goal
+  double collision_cost = 1000.0;  ///< [s] travel time worth one certain contact
+  double discount_time = 0.7;      ///< [s] a risk this far ahead counts 1/e: there is time to plan again
+  double cost_threshold = 0.02;    ///< [s] the direct way is taken at once below this
+  double keep_bonus = 0.05;        ///< [s] in favour of the plan under way
+  double stand_bonus = 0.3;        ///< [s] in favour of standing while slow: a blocked robot shall not fidget
+  double margin = 0.1;             ///< [m] added to the radii towards moving obstacles
+  double static_margin = 0.02;     ///< [m] added to the robot's radius towards the static map
+  double static_sigma = 0.02;      ///< [m] softness of static surfaces
+  double sigma_floor = 0.03;       ///< [m] smallest uncertainty of a moving obstacle
+  double peer_sigma = 0.02;        ///< [m] uncertainty of a peer's plan now
   double peer_sigma_growth = 0.08;    ///< [m/s] and its growth: peers plan again
   double peer_margin = 0.05;          ///< [m] added to the radii towards peers
-  double peer_risk_fading = 0.4;      ///< [s] as risk_fading, for peers: they plan around each other
+  double peer_discount_time = 0.4;    ///< [s] as discount_time, for peers: they plan around each other
   double renewal = 1.0;               ///< [s] a plan under way is kept at most this long
-  double smoothing_tolerance = 0.05;  ///< [s] by which the smooth way may be dearer than the chosen one
+  double smoothing_tolerance = 0.05;  ///< [s] by which the smooth way may be costlier than the chosen one
   bool predict_bounces = true;        ///< the mean motion of an obstacle turns at static surfaces
 
   template <class Self, class Visitor>
@@ -33,11 +33,11 @@ struct SpaceTimeParameters {
     visit("horizon", self.horizon, kSecondsByRobot, Range{0.5, 6.0},
           "time looked ahead by the roll-outs, 30 steps of them at most");
     visit("headings", self.headings, "1", Range{4, 64}, "directions of the sidesteps");
-    visit("risk_price", self.risk_price, kSecondsByRobot, Range{0.0, 1e6},
+    visit("collision_cost", self.collision_cost, kSecondsByRobot, Range{0.0, 1e6},
           "travel time worth one certain contact");
-    visit("risk_fading", self.risk_fading, kSecondsByRobot, Range{0.05, 20.0},
+    visit("discount_time", self.discount_time, kSecondsByRobot, Range{0.05, 20.0},
           "a risk this far ahead counts 1/e, since there is time to plan again");
-    visit("accepted_risk", self.accepted_risk, kSecondsByRobot, Range{0.0, 100.0},
+    visit("cost_threshold", self.cost_threshold, kSecondsByRobot, Range{0.0, 100.0},
           "the direct way is taken at once when its risk costs less");
     visit("margin", self.margin, kMetresBySize, Range{0.0, 2.0},
           "added to the radii towards moving obstacles");
@@ -61,7 +61,7 @@ struct SpaceTimeParameters {
     visit(self.sigma_floor, Scale::size, Range{0.001, 1.0});
     visit(self.peer_sigma, Scale::size, Range{0.001, 1.0});
     visit(self.peer_sigma_growth, Scale::speed, Range{0.0, 2.0});
-    visit(self.peer_risk_fading, Scale::time, Range{0.05, 20.0});
+    visit(self.peer_discount_time, Scale::time, Range{0.05, 20.0});
     visit(self.renewal, Scale::time, Range{0.1, 2.0});
     visit(self.smoothing_tolerance, Scale::time, Range{0.0, 10.0});
   }

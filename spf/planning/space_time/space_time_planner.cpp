@@ -33,7 +33,7 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
 
 SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
                                                 double enough) const {
-  const GuidePath& guide = *request.guide;
+  const CostToGo& guide = *request.guide;
   Score score;
   const auto end = static_cast<std::size_t>(roll_out.steps);
   const Eigen::Vector2d& tail = roll_out.position_world[end];
@@ -52,8 +52,8 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   score.time += kEarlyProgress * between / (kProgressSamples * settings_.max_speed);
   if (score.time > enough) return score;
 
-  // Static surfaces: the chance that the own position error reaches one. It does not fade: a wall will still
-  // be there, and a risk that fades would be put off for ever.
+  // Static surfaces: the chance that the own position error reaches one. It is not discounted: a wall will
+  // still be there, and a risk that fades would be put off for ever.
   const OccupancyMap& map = *request.world.map;
   const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
   const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
@@ -70,13 +70,13 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   // Deeper is worse without end, so that a robot inside the margin is led out of it.
   const double depth = std::max(0.0, -clearance) / wanted_clearance;
   const double static_chance = clearance > 4.0 * softness ? 0.0 : normal_tail(clearance / softness) + depth;
-  const double left = (enough - score.time) / std::max(parameters_.risk_price, 1e-9) - static_chance;
+  const double left = (enough - score.time) / std::max(parameters_.collision_cost, 1e-9) - static_chance;
   score.chance = static_chance;
-  score.risk = static_chance * parameters_.risk_price;
+  score.risk = static_chance * parameters_.collision_cost;
   if (left < 0.0) return score;
   const double moving_chance = risk_.along(roll_out.position_world, roll_out.steps, stop, left, &score.worst);
   score.chance += moving_chance;
-  score.risk += moving_chance * parameters_.risk_price;
+  score.risk += moving_chance * parameters_.collision_cost;
   return score;
 }
 
@@ -87,15 +87,15 @@ void SpaceTimePlanner::take_best(const Score& score, int candidate, bool is_prev
   best_is_previous_ = is_previous;
 }
 
-void SpaceTimePlanner::consider(const Manoeuvre& manoeuvre, const PlanRequest& request, PlanResult& result,
-                                double bonus) {
-  roll_out(manoeuvre, request.head, *request.guide, settings_, trial_);
-  ++result.stats.manoeuvres;
+void SpaceTimePlanner::consider(const MotionPrimitive& primitive, const PlanRequest& request,
+                                PlanResult& result, double bonus) {
+  roll_out(primitive, request.head, *request.guide, settings_, trial_);
+  ++result.stats.primitives;
   const double enough =
       request.keep_candidates ? std::numeric_limits<double>::infinity() : best_score_.total();
   Score trial_score = score(trial_, request, enough + bonus);
   trial_score.time -= bonus;
-  const int candidate = keep_candidate(trial_, Candidate::Kind::manoeuvre, trial_score, request, result);
+  const int candidate = keep_candidate(trial_, Candidate::Kind::primitive, trial_score, request, result);
   if (trial_score.total() < best_score_.total()) take_best(trial_score, candidate, false);
 }
 
@@ -134,10 +134,10 @@ void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult
     for (const double speed : speeds) {
       const Eigen::Vector2d velocity = direction * speed;
       const double always = settings_.step * settings_.steps;
-      consider({velocity, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, result);
-      consider({velocity, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, result);
-      consider({velocity, always, Manoeuvre::Then::hold}, request, result);
-      consider({velocity, parameters_.short_sidestep, Manoeuvre::Then::brake}, request, result);
+      consider({velocity, parameters_.short_sidestep, MotionPrimitive::Then::goal}, request, result);
+      consider({velocity, parameters_.long_sidestep, MotionPrimitive::Then::goal}, request, result);
+      consider({velocity, always, MotionPrimitive::Then::hold}, request, result);
+      consider({velocity, parameters_.short_sidestep, MotionPrimitive::Then::brake}, request, result);
     }
   }
 }
@@ -145,14 +145,14 @@ void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult
 /// What shapes the plan is named, then every other way is weighed.
 void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& direct, PlanResult& result) {
   if (direct.worst >= 0) {
-    const SpaceTimeRisk::Entity& entity = risk_.entity(direct.worst);
-    (entity.is_peer ? result.blocking_peer : result.blocking_track) = entity.id;
+    const SpaceTimeRisk::PredictedAgent& agent = risk_.agent(direct.worst);
+    (agent.is_peer ? result.blocking_peer : result.blocking_track) = agent.id;
   }
   const Eigen::Vector2d still = Eigen::Vector2d::Zero();
   const bool slow = request.head.velocity_world.norm() < 0.3 * robot_.max_speed;
-  consider({still, 0.0, Manoeuvre::Then::brake}, request, result, slow ? parameters_.stand_bonus : 0.0);
-  consider({still, parameters_.short_sidestep, Manoeuvre::Then::goal}, request, result);
-  consider({still, parameters_.long_sidestep, Manoeuvre::Then::goal}, request, result);
+  consider({still, 0.0, MotionPrimitive::Then::brake}, request, result, slow ? parameters_.stand_bonus : 0.0);
+  consider({still, parameters_.short_sidestep, MotionPrimitive::Then::goal}, request, result);
+  consider({still, parameters_.long_sidestep, MotionPrimitive::Then::goal}, request, result);
   consider_sidesteps(request, result);
 }
 
@@ -172,12 +172,12 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   risk_.prepare(request);
   // 2. The plan under way and the direct way; enough when the direct way is free.
   consider_previous(request, result);
-  const Manoeuvre direct{Eigen::Vector2d::Zero(), 0.0, Manoeuvre::Then::goal};
+  const MotionPrimitive direct{Eigen::Vector2d::Zero(), 0.0, MotionPrimitive::Then::goal};
   roll_out(direct, request.head, *request.guide, settings_, trial_);
   const Score direct_score = score(trial_, request, std::numeric_limits<double>::infinity());
   consider(direct, request, result);
   // 3. Else all ways there are.
-  if (direct_score.risk > parameters_.accepted_risk) consider_all(request, direct_score, result);
+  if (direct_score.risk > parameters_.cost_threshold) consider_all(request, direct_score, result);
   // 4. The best of them, made smooth, is the plan.
   finish(request, result);
 }

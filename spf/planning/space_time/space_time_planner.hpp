@@ -1,13 +1,13 @@
-// The space-time method (ours, docs/space_time.md): a hundred manoeuvres rolled out against the growing
-// belief about everything that moves choose the way, the optimiser makes it smooth. Costs are seconds of
-// travel; a chance of contact costs SpaceTimeParameters::risk_price of them.
+// The space-time method (ours, docs/space_time.md): a hundred motion primitives rolled out against the
+// growing belief about everything that moves choose the way, the optimiser makes it smooth. Costs are seconds
+// of travel; a chance of contact costs SpaceTimeParameters::collision_cost of them.
 #pragma once
 
 #include "spf/planning/plan_judge.hpp"
-#include "spf/planning/space_time/manoeuvre.hpp"
+#include "spf/planning/space_time/motion_primitive.hpp"
 #include "spf/planning/space_time/space_time_parameters.hpp"
 #include "spf/planning/space_time/space_time_risk.hpp"
-#include "spf/planning/space_time/way_smoother.hpp"
+#include "spf/planning/space_time/trajectory_smoother.hpp"
 #include "spf/robot/robot_parameters.hpp"
 
 namespace spf {
@@ -19,9 +19,9 @@ class SpaceTimePlanner final : public Planner {
   SpaceTimePlanner(const SpaceTimeParameters& parameters, const PlannerParameters& planner,
                    const RobotParameters& robot);
 
-  /// A plan under way that is still the best is kept. The risk is faded by time and weighted, as it counts in
-  /// the choice. The outcome is what the clearance check says of the choice (PlanJudge), which is driven all
-  /// the same: where nothing is clear, it is the least risk there is.
+  /// A plan under way that is still the best is kept. The risk is discounted by time and weighted, as it
+  /// counts in the choice. The outcome is what the clearance check says of the choice (PlanJudge), which is
+  /// driven all the same: where nothing is clear, it is the least risk there is.
   void plan(const PlanRequest& request, PlanResult& result) override;
 
  private:
@@ -30,11 +30,11 @@ class SpaceTimePlanner final : public Planner {
     double time = 0.0;    ///< [s] travel time to the goal along it
     double risk = 0.0;    ///< [s] price of the chance of contact
     double chance = 0.0;  ///< [1] that chance; more than 1 where several add up
-    int worst = -1;       ///< entity that contributes most, -1 = none
+    int worst = -1;       ///< agent that contributes most, -1 = none
     [[nodiscard]] double total() const { return time + risk; }
   };
   [[nodiscard]] Score score(const RollOut& roll_out, const PlanRequest& request, double enough) const;
-  void consider(const Manoeuvre& manoeuvre, const PlanRequest& request, PlanResult& result,
+  void consider(const MotionPrimitive& primitive, const PlanRequest& request, PlanResult& result,
                 double bonus = 0.0);
   void consider_previous(const PlanRequest& request, PlanResult& result);
   void consider_all(const PlanRequest& request, const Score& direct, PlanResult& result);
@@ -56,7 +56,7 @@ class SpaceTimePlanner final : public Planner {
   Score best_score_;
   bool best_is_previous_ = false;
   int best_candidate_ = -1;  // index in the result, when candidates are kept
-  WaySmoother smoother_;
+  TrajectorySmoother smoother_;
   Trajectory smooth_;
   PlanJudge judge_;
   double plan_start_ = -1e9;  // [s] of the last plan made here

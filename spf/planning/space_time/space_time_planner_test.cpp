@@ -89,7 +89,7 @@ class SpaceTimePlannerTest : public ::testing::Test {
   OccupancyMap map;
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
-  GuidePath guide{GuidePathParameters{}};
+  CostToGo guide{CostToGoParameters{}};
   PlanRequest request;
   SpaceTimePlanner planner = make_planner();
   PlanResult result;
@@ -99,10 +99,10 @@ class SpaceTimePlannerTest : public ::testing::Test {
 TEST_F(SpaceTimePlannerTest, TakesTheDirectWayAtOnceWhenItIsFree) {
   plan();
   EXPECT_EQ(result.outcome, PlanOutcome::success);
-  EXPECT_EQ(result.stats.manoeuvres, 1);
+  EXPECT_EQ(result.stats.primitives, 1);
   EXPECT_EQ(result.blocking_track, -1);
   EXPECT_EQ(result.blocking_peer, -1);
-  EXPECT_LT(result.risk, SpaceTimeParameters{}.accepted_risk);
+  EXPECT_LT(result.risk, SpaceTimeParameters{}.cost_threshold);
   // 1 s and 0.5 m to full speed, then straight ahead: 1.5 m after 2 s at most, hardly less when it is smooth.
   EXPECT_LE(result.trajectory.position(kTime + 2.0).x(), 1.5 + 0.1);
   EXPECT_GT(result.trajectory.position(kTime + 2.0).x(), 1.2);
@@ -112,13 +112,13 @@ TEST_F(SpaceTimePlannerTest, TakesTheDirectWayAtOnceWhenItIsFree) {
   add_track({-2.0, 0.0}, {-0.5, 0.0});
   add_track({0.0, 9.0}, {0.0, 0.3});
   plan();
-  EXPECT_EQ(result.stats.manoeuvres, 1);
+  EXPECT_EQ(result.stats.primitives, 1);
 }
 
 TEST_F(SpaceTimePlannerTest, DodgesADiscThatComesTowardsIt) {
   add_track({2.5, 0.05}, {-0.6, 0.0});
   plan();
-  EXPECT_GT(result.stats.manoeuvres, 100);
+  EXPECT_GT(result.stats.primitives, 100);
   EXPECT_EQ(result.blocking_track, 40);
   double least = std::numeric_limits<double>::infinity();
   for (double ahead = 0.0; ahead <= 3.0; ahead += 0.01) {
@@ -196,7 +196,7 @@ TEST_F(SpaceTimePlannerTest, RefusesWhatIsNoRequest) {
   planner.plan(bad, result);
   EXPECT_EQ(result.outcome, PlanOutcome::invalid_request);
   bad = request;
-  const GuidePath no_free_goal{GuidePathParameters{}};
+  const CostToGo no_free_goal{CostToGoParameters{}};
   bad.guide = &no_free_goal;
   planner.plan(bad, result);
   EXPECT_EQ(result.outcome, PlanOutcome::no_path);
@@ -211,10 +211,10 @@ TEST_F(SpaceTimePlannerTest, KeepsEveryCandidateOnlyWhenAsked) {
   request.keep_candidates = true;
   planner.plan(request, result);
   const auto rolled_out = [](const Candidate& candidate) {
-    return candidate.kind == Candidate::Kind::manoeuvre;
+    return candidate.kind == Candidate::Kind::primitive;
   };
   EXPECT_EQ(std::count_if(result.candidates.begin(), result.candidates.end(), rolled_out),
-            result.stats.manoeuvres);
+            result.stats.primitives);
   // Among them is to wait here and go then: twice, for a short and a long time. And all keep the limits.
   const double shortly = kTime + SpaceTimeParameters{}.short_sidestep;
   const auto waits = [shortly](const Candidate& candidate) {
@@ -237,7 +237,7 @@ TEST_F(SpaceTimePlannerTest, DoesNotAllocate) {
   request.guide = &guide;
   planner.plan(request, result);
   EXPECT_EQ(guard.allocations(), 0);
-  EXPECT_GT(result.stats.manoeuvres, 100);
+  EXPECT_GT(result.stats.primitives, 100);
 }
 
 TEST_F(SpaceTimePlannerTest, RefusesParametersOutOfRange) {

@@ -25,14 +25,14 @@ SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot
       steps_{std::min(kMaxSteps, static_cast<int>(std::lround(parameters.horizon / parameters.step)))} {
   for (int k = 0; k <= kMaxSteps; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    fading_[at] = std::exp(-k * parameters.step / parameters.risk_fading);
-    peer_fading_[at] = std::exp(-k * parameters.step / parameters.peer_risk_fading);
+    discount_[at] = std::exp(-k * parameters.step / parameters.discount_time);
+    peer_discount_[at] = std::exp(-k * parameters.step / parameters.peer_discount_time);
   }
   order_.reserve(256);
 }
 
 void SpaceTimeRisk::prepare(const PlanRequest& request) {
-  entity_count_ = 0;
+  agent_count_ = 0;
   order_.clear();
   const std::vector<ObstacleTrack> no_tracks;
   const std::vector<Peer> no_peers;
@@ -56,9 +56,9 @@ void SpaceTimeRisk::prepare(const PlanRequest& request) {
     const double reach = 2.0 * max_speed_ * horizon + peer.radius + peer.growth + 4.0 * robot_radius_;
     if (gap < reach) order_.emplace_back(gap, -1 - static_cast<int>(i));
   }
-  if (order_.size() > kMaxEntities) {
-    std::nth_element(order_.begin(), order_.begin() + kMaxEntities, order_.end());
-    order_.resize(kMaxEntities);
+  if (order_.size() > kMaxAgents) {
+    std::nth_element(order_.begin(), order_.begin() + kMaxAgents, order_.end());
+    order_.resize(kMaxAgents);
   }
   for (const auto& [gap, index] : order_) {
     if (index >= 0) {
@@ -69,68 +69,69 @@ void SpaceTimeRisk::prepare(const PlanRequest& request) {
   }
 }
 
-SpaceTimeRisk::Entity* SpaceTimeRisk::next_entity() {
-  const auto next = static_cast<std::size_t>(entity_count_++);
-  if (next == entities_.size()) entities_.emplace_back();
-  return &entities_[next];
+SpaceTimeRisk::PredictedAgent* SpaceTimeRisk::next_agent() {
+  const auto next = static_cast<std::size_t>(agent_count_++);
+  if (next == agents_.size()) agents_.emplace_back();
+  return &agents_[next];
 }
 
 void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& track) {
   const double lead = request.time - track.time;  // the track may be older than the plan's start
   const ObstaclePrediction prediction{track, lead + steps_ * parameters_.step, parameters_.step,
                                       parameters_.predict_bounces ? request.world.map : nullptr};
-  Entity& entity = *next_entity();
-  entity.id = track.id;
-  entity.is_peer = false;
-  entity.stands = false;
-  entity.weight = 1.0;
-  entity.radius = robot_radius_ + track.state.radius + parameters_.margin;
+  PredictedAgent& agent = *next_agent();
+  agent.id = track.id;
+  agent.is_peer = false;
+  agent.stands = false;
+  agent.priority_weight = 1.0;
+  agent.radius = robot_radius_ + track.state.radius + parameters_.margin;
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    entity.mean_world[at] = prediction.position(lead + k * parameters_.step);
-    entity.sigma[at] = std::hypot(prediction.sigma(lead + k * parameters_.step), parameters_.sigma_floor);
+    agent.mean_world[at] = prediction.position(lead + k * parameters_.step);
+    agent.sigma[at] = std::hypot(prediction.sigma(lead + k * parameters_.step), parameters_.sigma_floor);
   }
-  finish(entity, request.position_sigma);
+  finish(agent, request.position_sigma);
 }
 
 void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
-  Entity& entity = *next_entity();
-  entity.id = peer.robot_id;
-  entity.is_peer = true;
+  PredictedAgent& agent = *next_agent();
+  agent.id = peer.robot_id;
+  agent.is_peer = true;
   // A peer that stands cannot be asked to yield; a moving one that comes after us will.
   const bool yields =
       goes_first(request.world.rank(), peer.rank()) && peer.state == PeerState::moving && !peer.expired;
-  entity.weight = yields ? kLowerPriorityWeight : 1.0;
-  entity.radius = robot_radius_ + peer.radius + peer.growth + parameters_.peer_margin;
+  agent.priority_weight = yields ? kLowerPriorityWeight : 1.0;
+  agent.radius = robot_radius_ + peer.radius + peer.growth + parameters_.peer_margin;
   // One that stands moves off only when it has to dodge or to go on.
   const bool stands = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
-  entity.stands = stands && !peer.expired;
+  agent.stands = stands && !peer.expired;
   const double growth = parameters_.peer_sigma_growth * (stands ? kStandingPeerGrowth : 1.0);
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double ahead = k * parameters_.step;
-    entity.mean_world[at] = peer.position(request.time + ahead);
-    entity.sigma[at] = std::hypot(parameters_.peer_sigma + growth * ahead, peer.position_sigma);
+    agent.mean_world[at] = peer.position(request.time + ahead);
+    agent.sigma[at] = std::hypot(parameters_.peer_sigma + growth * ahead, peer.position_sigma);
   }
-  finish(entity, request.position_sigma);
+  finish(agent, request.position_sigma);
 }
 
-void SpaceTimeRisk::finish(Entity& entity, double own_sigma) {
+void SpaceTimeRisk::finish(PredictedAgent& agent, double own_sigma) {
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    entity.sigma[at] = std::hypot(entity.sigma[at], own_sigma);
-    entity.size_factor[at] = normal_within(entity.radius / entity.sigma[at]) *
-                             (entity.is_peer ? peer_fading_ : fading_)[at] * entity.weight;
-    entity.reach[at] = entity.radius + kNegligibleSigmas * entity.sigma[at];
+    agent.sigma[at] = std::hypot(agent.sigma[at], own_sigma);
+    agent.weight[at] = normal_within(agent.radius / agent.sigma[at]) *
+                       (agent.is_peer ? peer_discount_ : discount_)[at] * agent.priority_weight;
+    agent.reach[at] = agent.radius + kNegligibleSigmas * agent.sigma[at];
   }
 }
 
-double SpaceTimeRisk::chance(const Entity& entity, int step, const Eigen::Vector2d& position_world) const {
+double SpaceTimeRisk::chance(const PredictedAgent& agent, int step,
+                             const Eigen::Vector2d& position_world) const {
   const auto at = static_cast<std::size_t>(step);
-  const double squared = (position_world - entity.mean_world[at]).squaredNorm();
-  if (squared > entity.reach[at] * entity.reach[at]) return 0.0;
-  const double z = (std::sqrt(squared) - entity.radius) / entity.sigma[at];
-  return normal_tail(z) * entity.size_factor[at];
+  const double squared = (position_world - agent.mean_world[at]).squaredNorm();
+  if (squared > agent.reach[at] * agent.reach[at]) return 0.0;
+  const double z = (std::sqrt(squared) - agent.radius) / agent.sigma[at];
+  return normal_tail(z) * agent.weight[at];
 }
 
 double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
@@ -138,13 +139,13 @@ double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& po
   double sum = 0.0;
   double largest = 0.0;
   if (worst != nullptr) *worst = -1;
-  for (int i = 0; i < entity_count_; ++i) {
-    const Entity& entity = entities_[static_cast<std::size_t>(i)];
-    double peak = chance(entity, steps, stop_world);
-    if (entity.stands) peak /= peer_fading_[static_cast<std::size_t>(steps)];
+  for (int i = 0; i < agent_count_; ++i) {
+    const PredictedAgent& agent = agents_[static_cast<std::size_t>(i)];
+    double peak = chance(agent, steps, stop_world);
+    if (agent.stands) peak /= peer_discount_[static_cast<std::size_t>(steps)];
     for (int k = 1; k <= steps; ++k) {
-      if (entity.size_factor[static_cast<std::size_t>(k)] <= peak) continue;  // cannot exceed the peak
-      peak = std::max(peak, chance(entity, k, positions[static_cast<std::size_t>(k)]));
+      if (agent.weight[static_cast<std::size_t>(k)] <= peak) continue;  // cannot exceed the peak
+      peak = std::max(peak, chance(agent, k, positions[static_cast<std::size_t>(k)]));
     }
     sum += peak;
     if (peak > largest) {

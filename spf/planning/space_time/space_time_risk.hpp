@@ -21,59 +21,62 @@ namespace spf {
 class SpaceTimeRisk {
  public:
   static constexpr int kMaxSteps = 30;
-  static constexpr int kMaxEntities = 48;
+  static constexpr int kMaxAgents = 48;
   static constexpr double kLowerPriorityWeight =
       0.3;  ///< [1] of the risk with peers that yield to this robot
 
   /// One obstacle or peer: where it is believed to be at each step.
-  struct Entity {
+  struct PredictedAgent {
     int id = -1;
     bool is_peer = false;
     bool stands =
-        false;  ///< a peer that stands will still be there at the end: the risk of the end does not fade
-    double weight = 1.0;                                    ///< [1]
+        false;  ///< a peer that stands will still be there at the end: the risk of the end is not discounted
+    double priority_weight = 1.0;                           ///< [1]
     double radius = 0.0;                                    ///< [m] both radii and the margin
     std::array<Eigen::Vector2d, kMaxSteps + 1> mean_world;  ///< [m]
     std::array<double, kMaxSteps + 1> sigma;                ///< [m]
-    std::array<double, kMaxSteps + 1> size_factor;          ///< erf(R / (sigma sqrt 2)) * fading * weight
+    std::array<double, kMaxSteps + 1> weight;               ///< erf(R / (sigma sqrt 2)) * discount * weight
     std::array<double, kMaxSteps + 1> reach;                ///< [m] beyond this distance the chance is nil
   };
 
   SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed);
 
-  /// Tabulates every obstacle and peer that can come near within the horizon (the nearest kMaxEntities of
+  /// Tabulates every obstacle and peer that can come near within the horizon (the nearest kMaxAgents of
   /// them). Allocates only when they are more than ever before.
   void prepare(const PlanRequest& request);
 
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] double step() const { return parameters_.step; }  ///< [s]
-  [[nodiscard]] int entity_count() const { return entity_count_; }
-  [[nodiscard]] const Entity& entity(int index) const { return entities_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] int agent_count() const { return agent_count_; }
+  [[nodiscard]] const PredictedAgent& agent(int index) const {
+    return agents_[static_cast<std::size_t>(index)];
+  }
 
-  /// Faded and weighted chance of contact at one step with one entity, in [0, 1].
-  [[nodiscard]] double chance(const Entity& entity, int step, const Eigen::Vector2d& position_world) const;
+  /// Discounted and weighted chance of contact at one step with one agent, in [0, 1].
+  [[nodiscard]] double chance(const PredictedAgent& agent, int step,
+                              const Eigen::Vector2d& position_world) const;
 
-  /// Sum over entities of the largest faded chance along positions[1..steps], and at the place where the
+  /// Sum over agents of the largest discounted chance along positions[1..steps], and at the place where the
   /// robot would stand if it braked from there, at the last step's time; stops counting once the sum exceeds
-  /// `enough`. `worst` receives the index of the entity that contributes most, -1 for none.
+  /// `enough`. `worst` receives the index of the agent that contributes most, -1 for none.
   [[nodiscard]] double along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
                              const Eigen::Vector2d& stop_world, double enough, int* worst = nullptr) const;
 
  private:
   void add_track(const PlanRequest& request, const ObstacleTrack& track);
   void add_peer(const PlanRequest& request, const Peer& peer);
-  [[nodiscard]] Entity* next_entity();
-  void finish(Entity& entity, double own_sigma);
+  [[nodiscard]] PredictedAgent* next_agent();
+  void finish(PredictedAgent& agent, double own_sigma);
 
   SpaceTimeParameters parameters_;
   double robot_radius_;
   double max_speed_;
   int steps_;
-  std::array<double, kMaxSteps + 1> fading_;
-  std::array<double, kMaxSteps + 1> peer_fading_;
-  std::vector<Entity> entities_;  // the first entity_count_ count; kept for their memory of 1.3 KB each
+  std::array<double, kMaxSteps + 1> discount_;
+  std::array<double, kMaxSteps + 1> peer_discount_;
+  std::vector<PredictedAgent> agents_;  // the first agent_count_ count; kept for their memory of 1.3 KB each
   std::vector<std::pair<double, int>> order_;
-  int entity_count_ = 0;
+  int agent_count_ = 0;
 };
 
 }  // namespace spf

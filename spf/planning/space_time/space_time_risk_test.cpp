@@ -83,8 +83,8 @@ TEST(SpaceTimeRisk, LeavesOutWhatCannotComeNear) {
   scene.tracks[1].velocity_diffusion = 0.0;
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
-  ASSERT_EQ(risk.entity_count(), 1);
-  EXPECT_EQ(risk.entity(0).id, 3);
+  ASSERT_EQ(risk.agent_count(), 1);
+  EXPECT_EQ(risk.agent(0).id, 3);
 }
 
 TEST(SpaceTimeRisk, KeepsTheNearestWhenThereAreTooMany) {
@@ -93,9 +93,8 @@ TEST(SpaceTimeRisk, KeepsTheNearestWhenThereAreTooMany) {
     scene.tracks.push_back(track_at(i, {0.01 * (200 - i) + 1.0, 0.0}, {0.0, 0.0}));
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
-  ASSERT_EQ(risk.entity_count(), SpaceTimeRisk::kMaxEntities);
-  for (int i = 0; i < risk.entity_count(); ++i)
-    EXPECT_GE(risk.entity(i).id, 200 - SpaceTimeRisk::kMaxEntities);
+  ASSERT_EQ(risk.agent_count(), SpaceTimeRisk::kMaxAgents);
+  for (int i = 0; i < risk.agent_count(); ++i) EXPECT_GE(risk.agent(i).id, 200 - SpaceTimeRisk::kMaxAgents);
 }
 
 // An obstacle that crosses x = 2 at t = 1: standing there then is dangerous, standing where it has been is
@@ -106,11 +105,11 @@ TEST(SpaceTimeRisk, KnowsWhenAnObstacleIsWhere) {
   scene.tracks[0].velocity_diffusion = 0.0;
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
-  ASSERT_EQ(risk.entity_count(), 1);
-  const double fading = std::exp(-1.0 / 0.7);
-  EXPECT_NEAR(risk.chance(risk.entity(0), 10, {2.0, 0.0}), fading, 1e-9);  // 27 sigma inside
-  EXPECT_EQ(risk.chance(risk.entity(0), 30, {2.0, -1.0}), 0.0);            // it is 3 m away by then
-  EXPECT_GT(standing_risk(risk, {2.0, 0.0}), 0.9 * fading);
+  ASSERT_EQ(risk.agent_count(), 1);
+  const double discount = std::exp(-1.0 / 0.7);
+  EXPECT_NEAR(risk.chance(risk.agent(0), 10, {2.0, 0.0}), discount, 1e-9);  // 27 sigma inside
+  EXPECT_EQ(risk.chance(risk.agent(0), 30, {2.0, -1.0}), 0.0);              // it is 3 m away by then
+  EXPECT_GT(standing_risk(risk, {2.0, 0.0}), 0.9 * discount);
 }
 
 TEST(SpaceTimeRisk, IsUnchangedWhenTheSceneTurns) {

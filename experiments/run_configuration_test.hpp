@@ -1,4 +1,4 @@
-// What tests run: all trials of one study.
+// What tests run: all trials of one config.
 #pragma once
 
 #include <utility>
@@ -10,9 +10,9 @@
 namespace spf {
 
 /// Records by trial.
-inline std::vector<TrialRecord> run_study(const Study& study, int first, int trials,
-                                          CampaignRequest request = {}) {
-  const CampaignPlan plan = single_cell(study, first, trials);
+inline std::vector<TrialRecord> run_configuration(const RunConfiguration& config, int first, int trials,
+                                                  CampaignRequest request = {}) {
+  const CampaignPlan plan = single_cell(config, first, trials);
   TrialStore store{plan};
   request.trials = trials_of(plan);
   const auto told = request.finished;

@@ -1,4 +1,4 @@
-#include "spf/planning/field/evasion.hpp"
+#include "spf/planning/field/emergency_manoeuvre.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +40,8 @@ bool better(const ClearanceReport& candidate, const ClearanceReport& best, doubl
   return candidate.time > best.time + 1e-9;
 }
 
-/// What an evasion is judged by.
-struct Judge {
+/// What a manoeuvre is judged by.
+struct Criterion {
   const ClearanceModel& model;
   double time;                    // [s]
   double until;                   // [s]
@@ -49,53 +49,54 @@ struct Judge {
   bool in_fields;                 // the start lies in a danger region
   Eigen::Vector2d axis = {0, 0};  // unit, of the obstacle's motion there
 
-  [[nodiscard]] Evasion judged(const Trajectory& trajectory, bool sidestep) const {
+  [[nodiscard]] EmergencyManoeuvre judged(const Trajectory& trajectory, bool sidestep) const {
     ClearanceWindow window{time, until, until, 0.5};
     window.fields = !in_fields;
-    Evasion evasion{trajectory, model.check(trajectory, window), sidestep};
-    if (in_fields) evasion.time_in_fields = model.time_in_fields(trajectory, time, until);
-    return evasion;
+    EmergencyManoeuvre manoeuvre{trajectory, model.check(trajectory, window), sidestep};
+    if (in_fields) manoeuvre.time_in_fields = model.time_in_fields(trajectory, time, until);
+    return manoeuvre;
   }
-  [[nodiscard]] bool prefers(const Evasion& candidate, const Evasion& best) const {
+  [[nodiscard]] bool prefers(const EmergencyManoeuvre& candidate, const EmergencyManoeuvre& best) const {
     if (!in_fields) return better(candidate.report, best.report, enough());
     constexpr double kSoon = 1e-6;  // [s]
     if (candidate.report.clear() != best.report.clear()) return candidate.report.clear();
     if (!candidate.report.clear()) return candidate.report.time > best.report.time + 1e-9;
-    if (helps(candidate) != helps(best)) return helps(candidate);
+    if (leads_out(candidate) != leads_out(best)) return leads_out(candidate);
     if (std::abs(candidate.time_in_fields - best.time_in_fields) > kSoon)
       return candidate.time_in_fields < best.time_in_fields;
     return rest_clearance(candidate) > rest_clearance(best);
   }
   /// Who runs ahead of the obstacle stays before it: a way out leads to its side, or anywhere but ahead when
   /// it is short.
-  [[nodiscard]] bool helps(const Evasion& evasion) const {
+  [[nodiscard]] bool leads_out(const EmergencyManoeuvre& manoeuvre) const {
     constexpr double kShort = 0.5;  // [s]
     constexpr double kSideways =
-        0.65;  // [1] sine of the angle to the obstacle's motion, about least_sideways
-    const Eigen::Vector2d way =
-        evasion.trajectory.tail_position() - evasion.trajectory.position(evasion.trajectory.start_time());
+        0.65;  // [1] sine of the angle to the obstacle's motion, about least_lateral_share
+    const Eigen::Vector2d way = manoeuvre.trajectory.tail_position() -
+                                manoeuvre.trajectory.position(manoeuvre.trajectory.start_time());
     const double across = std::abs(cross(axis, way));
     if (across >= kSideways * way.norm() && way.norm() > kFarEnough * radius) return true;
-    return evasion.time_in_fields <= kShort && axis.dot(way) <= 0.0;
+    return manoeuvre.time_in_fields <= kShort && axis.dot(way) <= 0.0;
   }
-  [[nodiscard]] double rest_clearance(const Evasion& evasion) const {
-    return std::min(model.field_clearance(evasion.trajectory.tail_position()), enough());
+  [[nodiscard]] double rest_clearance(const EmergencyManoeuvre& manoeuvre) const {
+    return std::min(model.field_clearance(manoeuvre.trajectory.tail_position()), enough());
   }
   [[nodiscard]] double enough() const { return kEnoughClearance * radius; }  // [m]
 };
 
 }  // namespace
 
-Evasion best_evasion(const FlatState& head, const HeadingState& heading, double time, double until,
-                     const ClearanceModel& model, const RobotParameters& robot) {
+EmergencyManoeuvre best_emergency_manoeuvre(const FlatState& head, const HeadingState& heading, double time,
+                                            double until, const ClearanceModel& model,
+                                            const RobotParameters& robot) {
   const DangerRegion* region = model.nearest_region(head.position_world);
   const bool in_fields =
       region != nullptr && region->field.clearance(head.position_world, region->threshold) < 0.0;
-  const Judge judge{model,     time,
-                    until,     robot.radius,
-                    in_fields, in_fields ? region->field.axis_world() : Eigen::Vector2d::Zero()};
-  Evasion best = judge.judged(braking_trajectory(head, heading, time, robot), false);
-  if (!in_fields && best.report.clear() && best.report.min_clearance >= judge.enough()) return best;
+  const Criterion criterion{model,     time,
+                            until,     robot.radius,
+                            in_fields, in_fields ? region->field.axis_world() : Eigen::Vector2d::Zero()};
+  EmergencyManoeuvre best = criterion.judged(braking_trajectory(head, heading, time, robot), false);
+  if (!in_fields && best.report.clear() && best.report.min_clearance >= criterion.enough()) return best;
   const ClearanceWindow only_static{time, until, time, 0.5};
   for (const double duration : {kSidestepTime, kWayOutTime}) {
     if (duration > kSidestepTime && !in_fields) break;
@@ -105,8 +106,8 @@ Evasion best_evasion(const FlatState& head, const HeadingState& heading, double 
       for (const double part : {1.0, 0.5}) {
         Trajectory trial = sidestep(head, part * robot.max_speed * direction, time, duration, robot);
         if (!model.check(trial, only_static).clear()) continue;  // never into a wall to gain time
-        Evasion candidate = judge.judged(trial, true);
-        if (!judge.prefers(candidate, best)) continue;
+        EmergencyManoeuvre candidate = criterion.judged(trial, true);
+        if (!criterion.prefers(candidate, best)) continue;
         candidate.trajectory.set_heading(stopping_heading(heading, time, robot));
         best = std::move(candidate);
       }

@@ -1,7 +1,7 @@
-// The way to the goal around static obstacles, from everywhere: a cost-to-go in metres. A flood from the goal
-// gives every node of a coarse grid its root: the last corner from which it can be seen (lazy Theta*,
-// any-angle). The cost at a place is then a distance to a root plus the root's own cost: exact, not the sum
-// of grid steps. Frame: world.
+// The way to the goal around static obstacles, from everywhere: a cost-to-go in metres. A wavefront from the
+// goal gives every node of a coarse grid its parent: the last corner from which it can be seen (lazy Theta*,
+// any-angle). The cost at a place is then a distance to a parent plus the parent's own cost: exact, not the
+// sum of grid steps. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,11 @@
 
 namespace spf {
 
-struct GuidePathParameters {
+struct CostToGoParameters {
   double clearance = 0.35;  ///< [m] distance to static surfaces that the way keeps
-  double resolution = 0.2;  ///< [m] of the flood's nodes, at most 1.4 clearance is used; passages narrower
-                            ///< than 2 clearance + this may be missed
-  double window_margin = 10.0;  ///< [m] the flood first stays this close to the box around robot and goal
+  double resolution = 0.2;  ///< [m] of the wavefront's nodes, at most 1.4 clearance is used; passages
+                            ///< narrower than 2 clearance + this may be missed
+  double window_margin = 10.0;  ///< [m] the wavefront first stays this close to the box around robot and goal
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -32,11 +32,11 @@ struct GuidePathParameters {
   /// No settings, but they follow the robot.
   template <class Self, class Visitor>
   static void visit_constants(Self& self, Visitor&& visit) {
-    visit(self.window_margin, Scale::way, Range{0.0, 1000.0});
+    visit(self.window_margin, Scale::stopping_distance, Range{0.0, 1000.0});
   }
 };
 
-enum class GuideOutcome {
+enum class CostToGoOutcome {
   reachable,     ///< a way leads from the robot to the goal
   goal_moved,    ///< likewise, but to goal_used(), the nearest free place to a goal on blocked ground
   unreachable,   ///< no way; the cost-to-go then counts blocked ground several times over and still leads to
@@ -44,23 +44,24 @@ enum class GuideOutcome {
   no_free_goal,  ///< the map has no free place near the goal at all (or numbers were not finite): no field
 };
 
-class GuidePath {
+class CostToGo {
  public:
   /// Throws std::invalid_argument on parameters out of range.
-  explicit GuidePath(const GuidePathParameters& parameters);
+  explicit CostToGo(const CostToGoParameters& parameters);
 
-  /// Floods from the goal far enough for a robot at `robot_world`. What the flood works with (some 30 bytes a
-  /// node) is kept from run to run where the map is being sensed, since the next flood is near, and given
-  /// back where all of it is known; what remains is 2 bytes a node and 16 for every different root.
-  GuideOutcome update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
-                      const Eigen::Vector2d& robot_world);
+  /// Propagates from the goal far enough for a robot at `robot_world`. What the wavefront works with (some 30
+  /// bytes a node) is kept from run to run where the map is being sensed, since the next wavefront is near,
+  /// and given back where all of it is known; what remains is 2 bytes a node and 16 for every different
+  /// parent.
+  CostToGoOutcome update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
+                         const Eigen::Vector2d& robot_world);
   /// Whether update() with these arguments would do work of any use: new goal, changed map, robot out of the
   /// window.
   [[nodiscard]] bool outdated(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                               const Eigen::Vector2d& robot_world) const;
 
-  [[nodiscard]] bool ready() const { return !roots_.empty(); }
-  [[nodiscard]] GuideOutcome outcome() const { return outcome_; }
+  [[nodiscard]] bool ready() const { return !parents_.empty(); }
+  [[nodiscard]] CostToGoOutcome outcome() const { return outcome_; }
 
   // The following need ready(); none allocates (except the growth of way()'s argument).
   /// Length of the shortest way to goal_used() [m]. Continuous; exactly the straight distance where the goal
@@ -80,35 +81,38 @@ class GuidePath {
 
   /// The goal, or the nearest place that keeps the clearance.
   [[nodiscard]] const Eigen::Vector2d& goal_used() const { return goal_used_; }
-  [[nodiscard]] const GuidePathParameters& parameters() const { return parameters_; }
+  [[nodiscard]] const CostToGoParameters& parameters() const { return parameters_; }
 
  private:
-  /// What a node knows about reaching the goal: root_cost + |place - root|. The root is the goal or another
-  /// node; on blocked ground it is the root of the nearest node with a way.
+  /// What a node knows about reaching the goal: parent_cost + |place - parent|. The parent is the goal or
+  /// another node; on blocked ground it is the parent of the nearest node with a way.
   struct Node {
-    float root_x, root_y;  // [m] from the window's origin
-    float root_cost;       // [m]
-    std::int32_t parent;   // the node that is the root, kGoal or kUnseen; on blocked ground see portal_of
+    float parent_x, parent_y;  // [m] from the window's origin
+    float parent_cost;         // [m]
+    std::int32_t parent_node;  // the node that is the parent, kGoal or kUnseen; on blocked ground see
+                               // nearest_reached_of
   };
   struct Entry {
     float cost;
     std::int32_t node;
   };
-  /// The flood under way, by node of the window.
-  struct Flood {
+  /// The wavefront under way, by node of the window.
+  struct Wavefront {
     std::vector<Node> nodes;
     std::vector<std::uint8_t> state;
     std::vector<Entry> heap;
-    std::vector<std::int32_t> portal;
+    std::vector<std::int32_t> nearest_reached;
     std::vector<std::int32_t> queue;
   };
   struct Cell;
   static constexpr std::int32_t kGoal = -1;
   static constexpr std::int32_t kUnseen = -2;
-  static constexpr std::int32_t kBlocked = -3;  // no way at all; below: kBlocked - 1 - portal
+  static constexpr std::int32_t kBlocked = -3;  // no way at all; below: kBlocked - 1 - nearest_reached
 
-  [[nodiscard]] static bool on_blocked_ground(const Node& node) { return node.parent <= kBlocked; }
-  [[nodiscard]] static std::int32_t portal_of(const Node& node) { return kBlocked - 1 - node.parent; }
+  [[nodiscard]] static bool on_blocked_ground(const Node& node) { return node.parent_node <= kBlocked; }
+  [[nodiscard]] static std::int32_t nearest_reached_of(const Node& node) {
+    return kBlocked - 1 - node.parent_node;
+  }
   [[nodiscard]] Eigen::Vector2d place(std::int32_t index) const;
   [[nodiscard]] double cost_at(const Node& node, const Eigen::Vector2d& local) const;
   [[nodiscard]] float own_cost(const Node& node, std::int32_t index) const {
@@ -116,7 +120,7 @@ class GuidePath {
   }
   [[nodiscard]] const Node& node_at(std::int32_t index) const {
     const auto node = static_cast<std::size_t>(index);
-    return roots_[root_of_.empty() ? node : root_of_[node]];
+    return parents_[parent_of_.empty() ? node : parent_of_[node]];
   }
   [[nodiscard]] Cell cell_of(const Eigen::Vector2d& position_world) const;
   [[nodiscard]] std::int32_t best_corner(const Cell& cell) const;
@@ -127,18 +131,18 @@ class GuidePath {
 
   void set_window(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
   void mark_free_nodes(const OccupancyMap& map);
-  void flood(const OccupancyMap& map);
+  void propagate(const OccupancyMap& map);
   void seed(const OccupancyMap& map);
-  [[nodiscard]] bool between_seers(std::int32_t index) const;
+  [[nodiscard]] bool between_viewers(std::int32_t index) const;
   void push(std::int32_t index);
-  void offer(std::int32_t index, const Node& root);
-  void find_root_in_view(const OccupancyMap& map, std::int32_t index);
-  [[nodiscard]] Node root_at(std::int32_t index, const Eigen::Vector2d& local) const;
+  void offer(std::int32_t index, const Node& parent);
+  void find_parent_in_view(const OccupancyMap& map, std::int32_t index);
+  [[nodiscard]] Node parent_at(std::int32_t index, const Eigen::Vector2d& local) const;
   [[nodiscard]] Eigen::Vector2d at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const;
-  [[nodiscard]] bool sees_place(const OccupancyMap& map, const Node& root,
+  [[nodiscard]] bool sees_place(const OccupancyMap& map, const Node& parent,
                                 const Eigen::Vector2d& local) const;
-  [[nodiscard]] bool in_view(const OccupancyMap& map, std::int32_t index, const Node& root) const;
-  [[nodiscard]] bool flood_reached(const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] bool in_view(const OccupancyMap& map, std::int32_t index, const Node& parent) const;
+  [[nodiscard]] bool wavefront_reached(const Eigen::Vector2d& position_world) const;
   void extend_over_blocked_ground();
   void keep(const OccupancyMap& map);
   [[nodiscard]] std::optional<std::uint16_t> kept_beside(std::int32_t index) const;
@@ -146,17 +150,18 @@ class GuidePath {
                                                                   const Eigen::Vector2d& wanted) const;
   [[nodiscard]] bool window_covers(const Eigen::Vector2d& position_world) const;
 
-  GuidePathParameters parameters_;
-  GuideOutcome outcome_ = GuideOutcome::no_free_goal;
+  CostToGoParameters parameters_;
+  CostToGoOutcome outcome_ = CostToGoOutcome::no_free_goal;
   Eigen::Vector2d goal_asked_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d goal_used_ = Eigen::Vector2d::Zero();
   std::uint64_t map_revision_ = 0;
   bool whole_map_ = false;
   GridFrame window_;
-  // What the flood found. Neighbours mostly know the same, so that is kept once.
-  std::vector<Node> roots_;
-  std::vector<std::uint16_t> root_of_;  // by node, an index into roots_; empty: roots_ is by node itself
-  Flood flood_;
+  // What the wavefront found. Neighbours mostly know the same, so that is kept once.
+  std::vector<Node> parents_;
+  std::vector<std::uint16_t>
+      parent_of_;  // by node, an index into parents_; empty: parents_ is by node itself
+  Wavefront wavefront_;
 };
 
 }  // namespace spf

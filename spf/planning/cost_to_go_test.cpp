@@ -1,4 +1,4 @@
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ double nearest_surface(const Eigen::Vector2d& p, const std::vector<Box>& boxes) 
 }
 
 TEST(GuidePathSlow, MatchesTheVisibilityGraph) {
-  const GuidePathParameters parameters;
+  const CostToGoParameters parameters;
   double sum = 0.0;
   int compared = 0;
   int beyond_two_percent = 0;
@@ -132,7 +132,7 @@ TEST(GuidePathSlow, MatchesTheVisibilityGraph) {
       goal.y() = random.uniform(-7.0, 7.0);
     } while (nearest_surface(goal, boxes) < parameters.clearance + 0.05);
     const OccupancyMap map = map_with(boxes);
-    GuidePath guide{parameters};
+    CostToGo guide{parameters};
     (void)guide.update(map, goal, {0.0, 0.0});
     const VisibilityGraph oracle{boxes, goal, parameters.clearance};
     for (int k = 0; k < 60; ++k) {
@@ -159,11 +159,11 @@ TEST(GuidePathSlow, MatchesTheVisibilityGraph) {
 const std::vector<Box> kUShape = {
     {{2.0, -2.0}, {2.4, 2.4}}, {{-1.0, 2.0}, {2.4, 2.4}}, {{-1.0, -2.4}, {2.4, -2.0}}};
 
-TEST(GuidePath, IsTheStraightDistanceWhereTheGoalIsInView) {
+TEST(CostToGo, IsTheStraightDistanceWhereTheGoalIsInView) {
   const OccupancyMap map = map_with(kUShape);
-  GuidePath guide{GuidePathParameters{}};
+  CostToGo guide{CostToGoParameters{}};
   const Eigen::Vector2d goal{5.03, -1.17};
-  ASSERT_EQ(guide.update(map, goal, {0.0, 0.0}), GuideOutcome::reachable);
+  ASSERT_EQ(guide.update(map, goal, {0.0, 0.0}), CostToGoOutcome::reachable);
   for (const Eigen::Vector2d& place : {Eigen::Vector2d{5.0, 3.0}, {3.1, -5.2}, {7.3, 0.4}, goal}) {
     EXPECT_NEAR(guide.cost_to_go(place), (place - goal).norm(), 1e-5);  // floats of some metres
     if (place == goal) continue;
@@ -172,13 +172,13 @@ TEST(GuidePath, IsTheStraightDistanceWhereTheGoalIsInView) {
   EXPECT_EQ(guide.direction(goal).norm(), 0.0);
 }
 
-TEST(GuidePath, LeadsOutOfAUShapeAlongClearGround) {
+TEST(CostToGo, LeadsOutOfAUShapeAlongClearGround) {
   const OccupancyMap map = map_with(kUShape);
-  const GuidePathParameters parameters;
-  GuidePath guide{parameters};
+  const CostToGoParameters parameters;
+  CostToGo guide{parameters};
   const Eigen::Vector2d goal{5.0, 0.5};
   const Eigen::Vector2d start{1.0, 0.0};
-  ASSERT_EQ(guide.update(map, goal, start), GuideOutcome::reachable);
+  ASSERT_EQ(guide.update(map, goal, start), CostToGoOutcome::reachable);
   std::vector<Eigen::Vector2d> corners;
   guide.way(start, corners);
   ASSERT_GE(corners.size(), 4u);
@@ -199,12 +199,12 @@ TEST(GuidePath, LeadsOutOfAUShapeAlongClearGround) {
   }
 }
 
-TEST(GuidePath, CostIsContinuousAndItsGradientExact) {
+TEST(CostToGo, CostIsContinuousAndItsGradientExact) {
   RandomStream random{3};
   const std::vector<Box> boxes = draw_boxes(random, 6);
   const OccupancyMap map = map_with(boxes);
-  GuidePath guide{GuidePathParameters{}};
-  ASSERT_NE(guide.update(map, {6.9, 6.9}, {-6.0, -6.0}), GuideOutcome::no_free_goal);
+  CostToGo guide{CostToGoParameters{}};
+  ASSERT_NE(guide.update(map, {6.9, 6.9}, {-6.0, -6.0}), CostToGoOutcome::no_free_goal);
   const double step = 1e-6;
   for (int k = 0; k < 2000; ++k) {
     const double x = random.uniform(-7.5, 7.5);
@@ -224,41 +224,41 @@ TEST(GuidePath, CostIsContinuousAndItsGradientExact) {
   }
 }
 
-TEST(GuidePath, MovesAGoalOnBlockedGroundAndSaysSo) {
+TEST(CostToGo, MovesAGoalOnBlockedGroundAndSaysSo) {
   const OccupancyMap map = map_with({{{-1.0, -1.0}, {1.0, 1.0}}});
-  GuidePath guide{GuidePathParameters{}};
-  EXPECT_EQ(guide.update(map, {0.9, 0.0}, {-4.0, 0.0}), GuideOutcome::goal_moved);
+  CostToGo guide{CostToGoParameters{}};
+  EXPECT_EQ(guide.update(map, {0.9, 0.0}, {-4.0, 0.0}), CostToGoOutcome::goal_moved);
   EXPECT_NEAR(guide.goal_used().x(), 1.4, 1e-6);  // the nearest node that keeps 0.35 m
   EXPECT_NEAR(guide.goal_used().y(), 0.0, 1e-6);
   EXPECT_TRUE(guide.reachable({-4.0, 0.0}));
 }
 
-TEST(GuidePath, ReportsAClosedRoomButStillLeadsTowardsTheGoal) {
+TEST(CostToGo, ReportsAClosedRoomButStillLeadsTowardsTheGoal) {
   const OccupancyMap map = map_with({{{-2.0, -2.0}, {2.0, -1.8}},
                                      {{-2.0, 1.8}, {2.0, 2.0}},
                                      {{-2.0, -2.0}, {-1.8, 2.0}},
                                      {{1.8, -2.0}, {2.0, 2.0}}});
-  GuidePath guide{GuidePathParameters{}};
-  EXPECT_EQ(guide.update(map, {6.0, 0.0}, {0.0, 0.0}), GuideOutcome::unreachable);
+  CostToGo guide{CostToGoParameters{}};
+  EXPECT_EQ(guide.update(map, {6.0, 0.0}, {0.0, 0.0}), CostToGoOutcome::unreachable);
   EXPECT_FALSE(guide.reachable({0.0, 0.0}));
   EXPECT_TRUE(guide.reachable({-6.0, 0.0}));
   EXPECT_TRUE(std::isfinite(guide.cost_to_go({0.0, 0.0})));
   EXPECT_GT(guide.cost_to_go({0.0, 0.0}), guide.cost_to_go({3.0, 0.0}));
 }
 
-TEST(GuidePath, FindsDetoursOutsideTheWindow) {
-  GuidePathParameters parameters;
+TEST(CostToGo, FindsDetoursOutsideTheWindow) {
+  CostToGoParameters parameters;
   parameters.window_margin = 1.0;
   const OccupancyMap map = map_with({{{-0.2, -6.0}, {0.2, 8.0}}});  // the only way round is at the far end
-  GuidePath guide{parameters};
-  EXPECT_EQ(guide.update(map, {2.0, 5.0}, {-2.0, 5.0}), GuideOutcome::reachable);
+  CostToGo guide{parameters};
+  EXPECT_EQ(guide.update(map, {2.0, 5.0}, {-2.0, 5.0}), CostToGoOutcome::reachable);
   const double expected = 2.0 * std::hypot(1.8, 11.0);  // a little longer: around the corner at 0.35 m
   EXPECT_NEAR(guide.cost_to_go({-2.0, 5.0}), expected + 1.0, 0.5);
 }
 
-TEST(GuidePath, KnowsWhenItIsOutdated) {
+TEST(CostToGo, KnowsWhenItIsOutdated) {
   OccupancyMap map = map_with(kUShape);
-  GuidePath guide{GuidePathParameters{}};
+  CostToGo guide{CostToGoParameters{}};
   EXPECT_TRUE(guide.outdated(map, {5.0, 0.0}, {0.0, 0.0}));
   (void)guide.update(map, {5.0, 0.0}, {0.0, 0.0});
   EXPECT_FALSE(guide.outdated(map, {5.0, 0.0}, {0.0, 0.0}));
@@ -267,19 +267,19 @@ TEST(GuidePath, KnowsWhenItIsOutdated) {
   EXPECT_TRUE(guide.outdated(map, {5.0, 0.0}, {0.0, 0.0}));
 }
 
-TEST(GuidePath, HasAnAnswerForHopelessInput) {
+TEST(CostToGo, HasAnAnswerForHopelessInput) {
   OccupancyMap full{GridFrame::covering({-1.0, -1.0}, {1.0, 1.0}, 0.1), 1.0};
   full.add_box({-3.0, -3.0}, {3.0, 3.0});
-  GuidePath guide{GuidePathParameters{}};
-  EXPECT_EQ(guide.update(full, {0.0, 0.0}, {0.5, 0.5}), GuideOutcome::no_free_goal);
+  CostToGo guide{CostToGoParameters{}};
+  EXPECT_EQ(guide.update(full, {0.0, 0.0}, {0.5, 0.5}), CostToGoOutcome::no_free_goal);
   EXPECT_FALSE(guide.ready());
-  EXPECT_EQ(guide.update(map_with({}), {std::nan(""), 0.0}, {0.5, 0.5}), GuideOutcome::no_free_goal);
-  ASSERT_EQ(guide.update(map_with({}), {1.0, 0.0}, {0.5, 0.5}), GuideOutcome::reachable);
+  EXPECT_EQ(guide.update(map_with({}), {std::nan(""), 0.0}, {0.5, 0.5}), CostToGoOutcome::no_free_goal);
+  ASSERT_EQ(guide.update(map_with({}), {1.0, 0.0}, {0.5, 0.5}), CostToGoOutcome::reachable);
   EXPECT_TRUE(std::isnan(guide.cost_to_go({std::nan(""), 0.0})));  // and no crash
   EXPECT_FALSE(guide.reachable({std::nan(""), 0.0}));
-  GuidePathParameters parameters;
+  CostToGoParameters parameters;
   parameters.resolution = 0.0;
-  EXPECT_THROW(GuidePath{parameters}, std::invalid_argument);
+  EXPECT_THROW(CostToGo{parameters}, std::invalid_argument);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace spf::sim {
 
-struct Mover {
+struct DynamicObstacle {
   int id = 0;  ///< of the detector: discs 0, 1, 2, ...; people follow after the last disc
   bool person = false;
   double radius = 0.0;                                       ///< [m]
@@ -18,22 +18,22 @@ struct Mover {
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s] what an exact detector reports
 };
 
-class Movers {
+class DynamicObstacles {
  public:
   static constexpr double kStep = MovingObstacles::kStep;  ///< [s]
 
-  explicit Movers(const Scenario& scenario);
+  explicit DynamicObstacles(const Scenario& scenario);
 
   /// Begins the step at `time` [s], a multiple of kStep.
   void advance(double time);
 
-  [[nodiscard]] const std::vector<Mover>& all() const { return movers_; }
+  [[nodiscard]] const std::vector<DynamicObstacle>& all() const { return dynamic_obstacles_; }
 
  private:
   MovingObstacles discs_;
   Crowd crowd_;
   double person_radius_;  // [m]
-  std::vector<Mover> movers_;
+  std::vector<DynamicObstacle> dynamic_obstacles_;
 };
 
 }  // namespace spf::sim

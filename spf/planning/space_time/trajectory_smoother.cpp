@@ -1,4 +1,4 @@
-#include "spf/planning/space_time/way_smoother.hpp"
+#include "spf/planning/space_time/trajectory_smoother.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,15 +26,16 @@ PlannerParameters smoothing_parameters(PlannerParameters planner) {
 
 }  // namespace
 
-WaySmoother::WaySmoother(const SpaceTimeParameters& space_time, const PlannerParameters& planner,
-                         const RobotParameters& robot)
+TrajectorySmoother::TrajectorySmoother(const SpaceTimeParameters& space_time,
+                                       const PlannerParameters& planner, const RobotParameters& robot)
     : space_time_{space_time},
       planner_{smoothing_parameters(planner)},
       robot_{robot},
       optimizer_{planner_, robot} {}
 
-bool WaySmoother::smooth(const RollOut& roll_out, const PlanRequest& request, const SpaceTimeRisk& risk,
-                         const RollOutSettings& settings, Trajectory& smooth, PlanStats& stats) {
+bool TrajectorySmoother::smooth(const RollOut& roll_out, const PlanRequest& request,
+                                const SpaceTimeRisk& risk, const RollOutSettings& settings,
+                                Trajectory& smooth, PlanStats& stats) {
   const int pieces = roll_out.steps / kStepsPerPiece;
   if (pieces < 2) return false;
   seed_.resize(pieces);
@@ -52,7 +53,7 @@ bool WaySmoother::smooth(const RollOut& roll_out, const PlanRequest& request, co
   cost_.risk = &risk;
   cost_.map = request.world.map;
   cost_.start_time = request.time;
-  cost_.price = planner_.weights.time * space_time_.risk_price;
+  cost_.price = planner_.weights.time * space_time_.collision_cost;
   cost_.wanted_clearance = robot_.radius + request.world.map->margin(space_time_.static_margin);
   cost_.static_sigma = std::hypot(space_time_.static_sigma, request.position_sigma);
   problem_.extra = NodeTermRef{cost_};

@@ -8,7 +8,7 @@
 
 namespace spf {
 
-struct Evasion {
+struct EmergencyManoeuvre {
   Trajectory trajectory;        ///< ends standing
   ClearanceReport report;       ///< of that trajectory, up to `until`
   bool sidestep = false;        ///< false: braking is the best there is
@@ -22,7 +22,9 @@ struct Evasion {
 /// is out of the regions first wins, and among those that are not out in time the one that ends farthest
 /// out, as long as no peer is touched; sidesteps of a second count there too. `model` is prepared for the
 /// present; conflicts are looked for until the absolute time `until` [s].
-[[nodiscard]] Evasion best_evasion(const FlatState& head, const HeadingState& heading, double time,
-                                   double until, const ClearanceModel& model, const RobotParameters& robot);
+[[nodiscard]] EmergencyManoeuvre best_emergency_manoeuvre(const FlatState& head, const HeadingState& heading,
+                                                          double time, double until,
+                                                          const ClearanceModel& model,
+                                                          const RobotParameters& robot);
 
 }  // namespace spf

@@ -1,4 +1,4 @@
-#include "spf/planning/space_time/manoeuvre.hpp"
+#include "spf/planning/space_time/motion_primitive.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d&
 
 }  // namespace
 
-Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const GuidePath& guide,
+Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
                               const RollOutSettings& settings) {
   const Eigen::Vector2d direction = guide.direction(position_world);
   const double distance = guide.cost_to_go(position_world);
@@ -32,7 +32,7 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const Guide
   return direction * speed;
 }
 
-void roll_out(const Manoeuvre& manoeuvre, const FlatState& head, const GuidePath& guide,
+void roll_out(const MotionPrimitive& primitive, const FlatState& head, const CostToGo& guide,
               const RollOutSettings& settings, RollOut& result) {
   result.steps = settings.steps;
   result.position_world[0] = head.position_world;
@@ -41,24 +41,24 @@ void roll_out(const Manoeuvre& manoeuvre, const FlatState& head, const GuidePath
   // Far from the goal its direction hardly turns within the horizon: look it up once, follow it closely near
   // the end.
   const double near = 2.0 * settings.max_speed * settings.step * settings.steps;
-  Eigen::Vector2d target = manoeuvre.velocity_world;
-  bool first = manoeuvre.until > 0.0;
+  Eigen::Vector2d target = primitive.velocity_world;
+  bool first = primitive.until > 0.0;
   bool follow = false;
   for (int k = 0; k < settings.steps; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const Eigen::Vector2d position = result.position_world[at];
     const Eigen::Vector2d velocity = result.velocity_world[at];
-    if (k * settings.step >= manoeuvre.until - 1e-9) {
+    if (k * settings.step >= primitive.until - 1e-9) {
       const bool entering = first || k == 0;
       first = false;
-      switch (manoeuvre.then) {
-        case Manoeuvre::Then::goal:
+      switch (primitive.then) {
+        case MotionPrimitive::Then::goal:
           if (entering) follow = guide.cost_to_go(position) < near;
           if (entering || follow || k % 5 == 0) target = goal_velocity(position, guide, settings);
           break;
-        case Manoeuvre::Then::hold:
+        case MotionPrimitive::Then::hold:
           break;
-        case Manoeuvre::Then::brake:
+        case MotionPrimitive::Then::brake:
           target = Eigen::Vector2d::Zero();
           break;
       }

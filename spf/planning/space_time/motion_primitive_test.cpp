@@ -1,4 +1,4 @@
-#include "spf/planning/space_time/manoeuvre.hpp"
+#include "spf/planning/space_time/motion_primitive.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,25 +10,25 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // sums of 30 steps of about 0.1 m
 
-class ManoeuvreTest : public ::testing::Test {
+class MotionPrimitiveTest : public ::testing::Test {
  protected:
-  ManoeuvreTest() { guide.update(map, {8.0, 0.0}, {0.0, 0.0}); }
+  MotionPrimitiveTest() { guide.update(map, {8.0, 0.0}, {0.0, 0.0}); }
 
   OccupancyMap map{GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
-  GuidePath guide{GuidePathParameters{}};
+  CostToGo guide{CostToGoParameters{}};
   RollOutSettings settings;
   RollOut result;
 };
 
-Manoeuvre random_manoeuvre(RandomStream& random) {
+MotionPrimitive random_manoeuvre(RandomStream& random) {
   const double angle = random.uniform(-kPi, kPi);
   const double speed = random.uniform(0.0, 1.0);
   const int then = static_cast<int>(random.uniform(0.0, 3.0));
   return {speed * Eigen::Vector2d{std::cos(angle), std::sin(angle)}, random.uniform(0.0, 3.0),
-          static_cast<Manoeuvre::Then>(then)};
+          static_cast<MotionPrimitive::Then>(then)};
 }
 
-TEST_F(ManoeuvreTest, KeepsSpeedAndAccelerationLimits) {
+TEST_F(MotionPrimitiveTest, KeepsSpeedAndAccelerationLimits) {
   RandomStream random{3};
   for (int i = 0; i < 300; ++i) {
     FlatState head;
@@ -40,7 +40,7 @@ TEST_F(ManoeuvreTest, KeepsSpeedAndAccelerationLimits) {
   }
 }
 
-TEST_F(ManoeuvreTest, TrajectoryPassesThroughTheSteps) {
+TEST_F(MotionPrimitiveTest, TrajectoryPassesThroughTheSteps) {
   RandomStream random{4};
   for (int i = 0; i < 300; ++i) {
     FlatState head;
@@ -56,21 +56,21 @@ TEST_F(ManoeuvreTest, TrajectoryPassesThroughTheSteps) {
   }
 }
 
-TEST_F(ManoeuvreTest, EndsStanding) {
-  roll_out({{0.0, 1.0}, 9.0, Manoeuvre::Then::hold}, FlatState{}, guide, settings, result);
+TEST_F(MotionPrimitiveTest, EndsStanding) {
+  roll_out({{0.0, 1.0}, 9.0, MotionPrimitive::Then::hold}, FlatState{}, guide, settings, result);
   const Trajectory trajectory = to_trajectory(result, 0.0, settings);
   EXPECT_GT(trajectory.state(2.9).velocity_world.norm(), 0.99);
   EXPECT_NEAR(trajectory.end_time(), 4.0, kRounding);  // 3 s and 1 s to brake
   EXPECT_EQ(trajectory.state(4.1).velocity_world.norm(), 0.0);
 }
 
-TEST_F(ManoeuvreTest, StopsAtTheGoal) {
+TEST_F(MotionPrimitiveTest, StopsAtTheGoal) {
   for (double distance = 0.02; distance < 2.0; distance += 0.03) {
     FlatState head;
     head.position_world = {8.0 - distance, 0.0};
     RollOut now;
     for (int second = 0; second < 2; ++second) {  // 6 s, in two roll-outs
-      roll_out({{}, 0.0, Manoeuvre::Then::goal}, head, guide, settings, now);
+      roll_out({{}, 0.0, MotionPrimitive::Then::goal}, head, guide, settings, now);
       head.position_world = now.position_world[30];
       head.velocity_world = now.velocity_world[30];
       for (int k = 0; k <= 30; ++k)

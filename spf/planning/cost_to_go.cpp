@@ -1,4 +1,4 @@
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace spf {
 /// The four nodes around a place and their weights.
-struct GuidePath::Cell {
+struct CostToGo::Cell {
   Eigen::Vector2d local;  // [m] from the window's origin
   std::array<std::int32_t, 4> node;
   std::array<double, 4> weight;
@@ -16,22 +16,22 @@ struct GuidePath::Cell {
   Eigen::Vector2d outward;   // unit vector away from the window, zero inside
 };
 
-GuidePath::GuidePath(const GuidePathParameters& parameters) : parameters_{validated(parameters)} {}
+CostToGo::CostToGo(const CostToGoParameters& parameters) : parameters_{validated(parameters)} {}
 
-Eigen::Vector2d GuidePath::place(std::int32_t index) const {
+Eigen::Vector2d CostToGo::place(std::int32_t index) const {
   return window_.resolution * Eigen::Vector2d{index % window_.width, index / window_.width};
 }
 
-double GuidePath::cost_at(const Node& node, const Eigen::Vector2d& local) const {
-  const double dx = local.x() - static_cast<double>(node.root_x);
-  const double dy = local.y() - static_cast<double>(node.root_y);
-  return static_cast<double>(node.root_cost) + std::sqrt(dx * dx + dy * dy);
+double CostToGo::cost_at(const Node& node, const Eigen::Vector2d& local) const {
+  const double dx = local.x() - static_cast<double>(node.parent_x);
+  const double dy = local.y() - static_cast<double>(node.parent_y);
+  return static_cast<double>(node.parent_cost) + std::sqrt(dx * dx + dy * dy);
 }
 
 // ---- queries
 // --------------------------------------------------------------------------------------------------
 
-GuidePath::Cell GuidePath::cell_of(const Eigen::Vector2d& position_world) const {
+CostToGo::Cell CostToGo::cell_of(const Eigen::Vector2d& position_world) const {
   Cell cell;
   const Eigen::Vector2d asked = position_world - window_.origin_world;
   const double width = window_.resolution * (window_.width - 1);
@@ -58,7 +58,7 @@ GuidePath::Cell GuidePath::cell_of(const Eigen::Vector2d& position_world) const 
   return cell;
 }
 
-double GuidePath::cost_to_go(const Eigen::Vector2d& position_world) const {
+double CostToGo::cost_to_go(const Eigen::Vector2d& position_world) const {
   const Cell cell = cell_of(position_world);
   double cost = cell.outside;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -67,29 +67,29 @@ double GuidePath::cost_to_go(const Eigen::Vector2d& position_world) const {
   return cost;
 }
 
-Eigen::Vector2d GuidePath::cost_gradient(const Eigen::Vector2d& position_world) const {
+Eigen::Vector2d CostToGo::cost_gradient(const Eigen::Vector2d& position_world) const {
   const Cell cell = cell_of(position_world);
   if (cell.outside > 0.0) return cell.outward;
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
     const Node& node = node_at(cell.node[k]);
     gradient += cost_at(node, cell.local) * cell.slope[k];
-    const Eigen::Vector2d from_root = cell.local - Eigen::Vector2d{node.root_x, node.root_y};
-    const double length = from_root.norm();
-    if (length > 0.0) gradient += cell.weight[k] / length * from_root;
+    const Eigen::Vector2d from_parent = cell.local - Eigen::Vector2d{node.parent_x, node.parent_y};
+    const double length = from_parent.norm();
+    if (length > 0.0) gradient += cell.weight[k] / length * from_parent;
   }
   return gradient;
 }
 
-Eigen::Vector2d GuidePath::direction(const Eigen::Vector2d& position_world) const {
-  constexpr double kArrived = 1e-4;  // [m] roots are kept as floats
+Eigen::Vector2d CostToGo::direction(const Eigen::Vector2d& position_world) const {
+  constexpr double kArrived = 1e-4;  // [m] parents are kept as floats
   if ((position_world - goal_used_).squaredNorm() < kArrived * kArrived) return {0.0, 0.0};
   const Eigen::Vector2d gradient = cost_gradient(position_world);
   const double length = gradient.norm();
   return length > 1e-9 ? Eigen::Vector2d{-gradient / length} : Eigen::Vector2d{0.0, 0.0};
 }
 
-std::int32_t GuidePath::best_corner(const Cell& cell) const {
+std::int32_t CostToGo::best_corner(const Cell& cell) const {
   std::int32_t best = cell.node[0];
   double lowest = std::numeric_limits<double>::infinity();
   for (const std::int32_t index : cell.node) {
@@ -105,31 +105,32 @@ std::int32_t GuidePath::best_corner(const Cell& cell) const {
 
 // Calls visit(place in the window) for the place itself and every corner until visit returns false.
 template <class Visit>
-void GuidePath::walk(const Eigen::Vector2d& position_world, const Visit& visit) const {
+void CostToGo::walk(const Eigen::Vector2d& position_world, const Visit& visit) const {
   const Cell cell = cell_of(position_world);
   if (!visit(Eigen::Vector2d{position_world - window_.origin_world})) return;
   if (cell.outside > 0.0 && !visit(cell.local)) return;
   const std::int32_t corner = best_corner(cell);
-  const auto parent_of = [this](std::int32_t index) { return node_at(index).parent; };
-  const bool agreed = std::all_of(cell.node.begin(), cell.node.end(),
-                                  [&](std::int32_t index) { return parent_of(index) == parent_of(corner); });
+  const auto index_of_parent = [this](std::int32_t index) { return node_at(index).parent_node; };
+  const bool agreed = std::all_of(cell.node.begin(), cell.node.end(), [&](std::int32_t index) {
+    return index_of_parent(index) == index_of_parent(corner);
+  });
   // Where the four nodes see different corners, the straight line from here to one of them may clip an edge.
   const Node& first = node_at(corner);
   if (!agreed && !on_blocked_ground(first) && !visit(place(corner))) return;
   std::int32_t index = corner;
-  if (on_blocked_ground(first) && first.parent != kBlocked) {
-    index = portal_of(first);
+  if (on_blocked_ground(first) && first.parent_node != kBlocked) {
+    index = nearest_reached_of(first);
     if (!visit(place(index))) return;
   }
-  // Costs fall from root to root, so this ends at the goal.
+  // Costs fall from parent to parent, so this ends at the goal.
   while (index >= 0) {
     const Node& node = node_at(index);
-    if (!visit(Eigen::Vector2d{node.root_x, node.root_y})) return;
-    index = node.parent;
+    if (!visit(Eigen::Vector2d{node.parent_x, node.parent_y})) return;
+    index = node.parent_node;
   }
 }
 
-Eigen::Vector2d GuidePath::descend(const Eigen::Vector2d& position_world, double distance) const {
+Eigen::Vector2d CostToGo::descend(const Eigen::Vector2d& position_world, double distance) const {
   if (!(distance > 0.0)) return position_world;
   Eigen::Vector2d here = position_world - window_.origin_world;
   double remaining = distance;
@@ -146,8 +147,7 @@ Eigen::Vector2d GuidePath::descend(const Eigen::Vector2d& position_world, double
   return window_.origin_world + here;
 }
 
-void GuidePath::way(const Eigen::Vector2d& position_world,
-                    std::vector<Eigen::Vector2d>& corners_world) const {
+void CostToGo::way(const Eigen::Vector2d& position_world, std::vector<Eigen::Vector2d>& corners_world) const {
   corners_world.clear();
   walk(position_world, [&](const Eigen::Vector2d& corner) {
     corners_world.push_back(window_.origin_world + corner);
@@ -155,21 +155,21 @@ void GuidePath::way(const Eigen::Vector2d& position_world,
   });
 }
 
-bool GuidePath::reachable(const Eigen::Vector2d& position_world) const {
+bool CostToGo::reachable(const Eigen::Vector2d& position_world) const {
   const Cell cell = cell_of(position_world);
   return cell.outside == 0.0 && std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t index) {
            return !on_blocked_ground(node_at(index));
          });
 }
 
-bool GuidePath::window_covers(const Eigen::Vector2d& position_world) const {
+bool CostToGo::window_covers(const Eigen::Vector2d& position_world) const {
   const Eigen::Vector2d local = position_world - window_.origin_world;
   return local.x() >= 0.0 && local.y() >= 0.0 && local.x() <= window_.resolution * (window_.width - 1) &&
          local.y() <= window_.resolution * (window_.height - 1);
 }
 
-bool GuidePath::outdated(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
-                         const Eigen::Vector2d& robot_world) const {
+bool CostToGo::outdated(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
+                        const Eigen::Vector2d& robot_world) const {
   return !ready() || goal_world != goal_asked_ || map.revision() != map_revision_ ||
          (!whole_map_ && !window_covers(robot_world));
 }

@@ -1,4 +1,4 @@
-#include "spf/planning/field/evasion.hpp"
+#include "spf/planning/field/emergency_manoeuvre.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ PlannerParameters planner_parameters() {
   return parameters;
 }
 
-struct EvasionScene {
+struct EmergencyScene {
   OccupancyMap map{GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
@@ -35,10 +35,10 @@ struct EvasionScene {
     track.state = {position, velocity, 0.4};
     tracks.push_back(track);
   }
-  [[nodiscard]] Evasion evade(const PlannerParameters& planner = planner_parameters()) const {
+  [[nodiscard]] EmergencyManoeuvre evade(const PlannerParameters& planner = planner_parameters()) const {
     ClearanceModel model{planner, robot, FieldParameters{}};
     model.prepare({kTime, 1, &map, &tracks, &peers}, kTime, PeerSelection::all);
-    return best_evasion(head, {}, kTime, kTime + kHorizon, model, robot);
+    return best_emergency_manoeuvre(head, {}, kTime, kTime + kHorizon, model, robot);
   }
   /// Least gap of the surfaces over the horizon, sampled: independent of the clearance model [m].
   [[nodiscard]] double gap(const Trajectory& trajectory) const {
@@ -54,59 +54,59 @@ struct EvasionScene {
   }
 };
 
-TEST(Evasion, BrakesWhenNothingIsNear) {
-  EvasionScene scene;
+TEST(EmergencyManoeuvre, BrakesWhenNothingIsNear) {
+  EmergencyScene scene;
   scene.head.velocity_world = {0.8, 0.3};
-  const Evasion evasion = scene.evade();
-  EXPECT_FALSE(evasion.sidestep);
-  EXPECT_TRUE(evasion.report.clear());
+  const EmergencyManoeuvre manoeuvre = scene.evade();
+  EXPECT_FALSE(manoeuvre.sidestep);
+  EXPECT_TRUE(manoeuvre.report.clear());
   const Trajectory braking = braking_trajectory(scene.head, {}, kTime, scene.robot);
-  EXPECT_EQ(evasion.trajectory.tail_position(), braking.tail_position());
+  EXPECT_EQ(manoeuvre.trajectory.tail_position(), braking.tail_position());
 }
 
 /// From rest, half a second at 1 m/s^2 and back to rest leads 0.25 m far: enough against what would graze the
 /// robot.
-TEST(Evasion, StepsAsideWhenStandingWouldBeGrazed) {
+TEST(EmergencyManoeuvre, StepsAsideWhenStandingWouldBeGrazed) {
   for (int i = 0; i < 24; ++i) {
     SCOPED_TRACE(i);
     const double angle = 2.0 * kPi * i / 24;
     const Eigen::Vector2d from{std::cos(angle), std::sin(angle)};
-    EvasionScene scene;
+    EmergencyScene scene;
     const Eigen::Vector2d beside{-from.y(), from.x()};
     scene.add(2.0 * from + 0.53 * beside, -0.8 * from);
-    const Evasion evasion = scene.evade();
-    EXPECT_TRUE(evasion.sidestep);
-    EXPECT_TRUE(evasion.report.clear());
-    EXPECT_GT(scene.gap(evasion.trajectory), 0.0);
+    const EmergencyManoeuvre manoeuvre = scene.evade();
+    EXPECT_TRUE(manoeuvre.sidestep);
+    EXPECT_TRUE(manoeuvre.report.clear());
+    EXPECT_GT(scene.gap(manoeuvre.trajectory), 0.0);
     EXPECT_LT(scene.gap(braking_trajectory(scene.head, {}, kTime, scene.robot)), 0.0);  // there was a need
   }
 }
 
-TEST(Evasion, KeepsOutOfTheWallItHasBehind) {
-  EvasionScene scene;
+TEST(EmergencyManoeuvre, KeepsOutOfTheWallItHasBehind) {
+  EmergencyScene scene;
   scene.map.add_box({-9.0, -2.0}, {9.0, -0.4});  // 0.1 m from the robot's side
   scene.add({0.5, 2.0}, {0.0, -0.7});
-  const Evasion evasion = scene.evade();
-  EXPECT_TRUE(evasion.report.clear());
-  EXPECT_GT(scene.gap(evasion.trajectory), 0.0);
+  const EmergencyManoeuvre manoeuvre = scene.evade();
+  EXPECT_TRUE(manoeuvre.report.clear());
+  EXPECT_GT(scene.gap(manoeuvre.trajectory), 0.0);
   for (double ahead = 0.0; ahead < kHorizon; ahead += 0.02)
-    EXPECT_GT(evasion.trajectory.position(kTime + ahead).y() + 0.4, scene.robot.radius);
+    EXPECT_GT(manoeuvre.trajectory.position(kTime + ahead).y() + 0.4, scene.robot.radius);
 }
 
-TEST(Evasion, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
+TEST(EmergencyManoeuvre, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
   RandomStream random{15};
   int sidesteps = 0;
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
-    EvasionScene scene;
+    EmergencyScene scene;
     scene.head.velocity_world =
         random.uniform(0.0, 1.0) * random.normal2().normalized() * scene.robot.max_speed;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector2d place = random.uniform(0.9, 3.0) * random.normal2().normalized();
       scene.add(place, -random.uniform(0.2, 0.6) * (place + 0.5 * random.normal2()).normalized());
     }
-    const Evasion evasion = scene.evade();
-    const Trajectory& trajectory = evasion.trajectory;
+    const EmergencyManoeuvre manoeuvre = scene.evade();
+    const Trajectory& trajectory = manoeuvre.trajectory;
     const FlatState start = trajectory.state(kTime);
     EXPECT_LT((start.position_world - scene.head.position_world).norm(), 1e-12);
     EXPECT_LT((start.velocity_world - scene.head.velocity_world).norm(), 1e-12);
@@ -117,59 +117,59 @@ TEST(Evasion, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
     EXPECT_LE(trajectory.max_acceleration(), scene.robot.max_acceleration * (1.0 + 1e-9));
     // The reports say the truth: no contact in a clear one (they count half the margin of 0.05 m).
     const double gap = scene.gap(trajectory);
-    if (evasion.report.clear()) {
+    if (manoeuvre.report.clear()) {
       EXPECT_GT(gap, 0.0);
     }
     const double braking_gap = scene.gap(braking_trajectory(scene.head, {}, kTime, scene.robot));
     if (braking_gap > 0.05) {
-      EXPECT_TRUE(evasion.report.clear());
+      EXPECT_TRUE(manoeuvre.report.clear());
     }
-    sidesteps += evasion.sidestep ? 1 : 0;
+    sidesteps += manoeuvre.sidestep ? 1 : 0;
   }
   EXPECT_GT(sidesteps, 100);
 }
 
-TEST(Evasion, WithoutAWayOutTakesTheLatestConflict) {
+TEST(EmergencyManoeuvre, WithoutAWayOutTakesTheLatestConflict) {
   // Discs close in from all sides, those on the right later.
-  EvasionScene scene;
+  EmergencyScene scene;
   for (int i = 0; i < 8; ++i) {
     const double angle = 2.0 * kPi * i / 8;
     const Eigen::Vector2d from{std::cos(angle), std::sin(angle)};
     scene.add((from.x() > 0.5 ? 2.0 : 1.4) * from, -0.7 * from);
   }
-  const Evasion evasion = scene.evade();
-  EXPECT_FALSE(evasion.report.clear());
+  const EmergencyManoeuvre manoeuvre = scene.evade();
+  EXPECT_FALSE(manoeuvre.report.clear());
   ClearanceModel model{planner_parameters(), scene.robot, FieldParameters{}};
   model.prepare({kTime, 1, &scene.map, &scene.tracks, &scene.peers}, kTime, PeerSelection::all);
   const Trajectory braking = braking_trajectory(scene.head, {}, kTime, scene.robot);
   const double braking_time = model.check(braking, {kTime, kTime + kHorizon, kTime + kHorizon, 0.5}).time;
-  EXPECT_GT(evasion.report.time, braking_time);
-  EXPECT_TRUE(evasion.sidestep);
-  EXPECT_GT(evasion.trajectory.tail_position().x(), 0.0);
+  EXPECT_GT(manoeuvre.report.time, braking_time);
+  EXPECT_TRUE(manoeuvre.sidestep);
+  EXPECT_GT(manoeuvre.trajectory.tail_position().x(), 0.0);
 }
 
 /// Ten evasions a second of a robot that stands before an obstacle, inside its field.
 double least_gap_of_evasions(const Eigen::Vector2d& obstacle_from, const Eigen::Vector2d& velocity,
                              const std::vector<Eigen::Vector2d>& wall) {
-  EvasionScene scene;
+  EmergencyScene scene;
   if (!wall.empty()) scene.map.add_box(wall[0], wall[1]);
   scene.add(obstacle_from, velocity);
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < 40; ++step) {
-    const Evasion evasion = scene.evade(PlannerParameters{});
+    const EmergencyManoeuvre manoeuvre = scene.evade(PlannerParameters{});
     for (int k = 0; k < 10; ++k) {
-      const Eigen::Vector2d place = evasion.trajectory.position(kTime + 0.01 * k);
+      const Eigen::Vector2d place = manoeuvre.trajectory.position(kTime + 0.01 * k);
       const Eigen::Vector2d centre = scene.tracks[0].state.position_world + 0.01 * k * velocity;
       least = std::min(least, (place - centre).norm() - 0.7);
     }
-    scene.head = evasion.trajectory.state(kTime + 0.1);
+    scene.head = manoeuvre.trajectory.state(kTime + 0.1);
     scene.tracks[0].state.position_world += 0.1 * velocity;
   }
   return least;
 }
 
 /// In the field nothing is clear, and the obstacle does not wait: standing there is to be run over.
-TEST(Evasion, LeavesTheFieldOfAnObstacleThatComes) {
+TEST(EmergencyManoeuvre, LeavesTheFieldOfAnObstacleThatComes) {
   for (int i = 0; i < 24; ++i) {
     SCOPED_TRACE(i);
     const double angle = 2.0 * kPi * i / 24;
@@ -181,22 +181,22 @@ TEST(Evasion, LeavesTheFieldOfAnObstacleThatComes) {
   }
 }
 
-TEST(Evasion, LeavesTheFieldOnTheOtherSideOfAWall) {
+TEST(EmergencyManoeuvre, LeavesTheFieldOnTheOtherSideOfAWall) {
   // 0.1 m of room above the robot, which is the nearer way out of the field.
   EXPECT_GT(least_gap_of_evasions({1.5, -0.1}, {-0.4, 0.0}, {{-9.0, 0.4}, {9.0, 2.0}}), 0.0);
 }
 
-TEST(Evasion, TellsHowLongItStaysInTheField) {
-  EvasionScene scene;
+TEST(EmergencyManoeuvre, TellsHowLongItStaysInTheField) {
+  EmergencyScene scene;
   scene.add({5.0, 0.0}, {-0.5, 0.0});
   EXPECT_EQ(scene.evade(PlannerParameters{}).time_in_fields, 0.0);
   scene.tracks[0].state.position_world = {0.3, 0.6};  // half in: out within the second that it takes
   scene.tracks[0].state.velocity_world.setZero();
-  const Evasion evasion = scene.evade(PlannerParameters{});
-  EXPECT_TRUE(evasion.sidestep);
-  EXPECT_GT(evasion.time_in_fields, 0.1);
-  EXPECT_LT(evasion.time_in_fields, 1.0);
-  const Eigen::Vector2d out = evasion.trajectory.position(kTime + evasion.time_in_fields);
+  const EmergencyManoeuvre manoeuvre = scene.evade(PlannerParameters{});
+  EXPECT_TRUE(manoeuvre.sidestep);
+  EXPECT_GT(manoeuvre.time_in_fields, 0.1);
+  EXPECT_LT(manoeuvre.time_in_fields, 1.0);
+  const Eigen::Vector2d out = manoeuvre.trajectory.position(kTime + manoeuvre.time_in_fields);
   EXPECT_GE((out - Eigen::Vector2d{0.3, 0.6}).norm(), 0.7);
 }
 

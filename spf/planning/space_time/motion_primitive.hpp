@@ -1,20 +1,20 @@
-// Manoeuvres: what the robot could do in the next seconds, rolled out with velocities that move straight in
-// velocity space at the largest acceleration. They choose the way (side, speed, waiting) of the space-time
-// method. Frame: world.
+// Motion primitives: what the robot could do in the next seconds, rolled out with velocities that move
+// straight in velocity space at the largest acceleration. They choose the way (side, speed, waiting) of the
+// space-time method. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <array>
 
-#include "spf/planning/guide_path.hpp"
+#include "spf/planning/cost_to_go.hpp"
 #include "spf/planning/space_time/space_time_risk.hpp"
 #include "spf/trajectory/trajectory.hpp"
 
 namespace spf {
 
 /// First a velocity is taken up and held until a time, then the robot goes for its goal, goes on, or brakes.
-struct Manoeuvre {
+struct MotionPrimitive {
   enum class Then { goal, hold, brake };
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s] taken up first
   double until = 0.0;                                        ///< [s] from the start; 0 = straight to `then`
@@ -38,11 +38,11 @@ struct RollOutSettings {
 
 /// The velocity that leads to the goal from here: along the guide at max_speed, slowing down so as to stop
 /// there.
-[[nodiscard]] Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const GuidePath& guide,
+[[nodiscard]] Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
                                             const RollOutSettings& settings);
 
-/// Rolls a manoeuvre out from a head state (its acceleration is not continued).
-void roll_out(const Manoeuvre& manoeuvre, const FlatState& head, const GuidePath& guide,
+/// Rolls a primitive out from a head state (its acceleration is not continued).
+void roll_out(const MotionPrimitive& primitive, const FlatState& head, const CostToGo& guide,
               const RollOutSettings& settings, RollOut& result);
 
 /// The roll-out as a trajectory; steps of equal acceleration become one piece. A last piece brakes to rest,

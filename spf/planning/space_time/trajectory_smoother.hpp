@@ -1,20 +1,20 @@
-// Makes a chosen way smooth: the roll-out of a manoeuvre becomes a minimum-jerk trajectory (MINCO under
+// Makes a chosen way smooth: the roll-out of a primitive becomes a minimum-jerk trajectory (MINCO under
 // L-BFGS) that pays for jerk, time, limits and the space-time field. The way itself (side, speed, waiting)
 // stays as chosen. Frame: world.
 #pragma once
 
 #include "spf/planning/planner.hpp"
-#include "spf/planning/space_time/manoeuvre.hpp"
+#include "spf/planning/space_time/motion_primitive.hpp"
 #include "spf/planning/space_time/space_time_cost.hpp"
 #include "spf/planning/trajectory_optimizer.hpp"
 
 namespace spf {
 
-class WaySmoother {
+class TrajectorySmoother {
  public:
   /// All memory is allocated here. Throws std::invalid_argument when parameters are out of range.
-  WaySmoother(const SpaceTimeParameters& space_time, const PlannerParameters& planner,
-              const RobotParameters& robot);
+  TrajectorySmoother(const SpaceTimeParameters& space_time, const PlannerParameters& planner,
+                     const RobotParameters& robot);
 
   /// Optimises from the roll-out, with the request's head (its acceleration goes on, too) and the roll-out's
   /// end as ends. False when the optimiser failed or the result breaks the limits by more than their
