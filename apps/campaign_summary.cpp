@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Of rows among recorded people; empty when there are none.
+/// Table of the rows among recorded people; empty when there are none.
 std::string crossings_table(const std::vector<ResultRow>& rows) {
   Table table{{{"crossings", Alignment::left},
                {"condition", Alignment::left},

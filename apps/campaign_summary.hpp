@@ -27,7 +27,7 @@ struct CampaignFacts {
   double wall_time = 0.0;    ///< [s] of this run
 };
 
-/// run.json: what made these results. `earlier` is the text of the run that this one went on with, or empty;
+/// run.json: how these results were made. `earlier` is the text of the run that this one continued, or empty;
 /// its commits are kept.
 [[nodiscard]] std::string campaign_json(const Campaign& campaign, const CampaignFacts& facts,
                                         const std::string& earlier);

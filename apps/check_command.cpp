@@ -1,4 +1,4 @@
-// spf check: is this a scenario, and what does the program understand by it?
+// spf check: checks scenario files and shows how the program reads them.
 #include <iostream>
 #include <memory>
 #include <set>
@@ -71,7 +71,7 @@ Verb add_check(CLI::App& program, const MethodTable& methods) {
   app->footer(
       "Examples:\n"
       "  spf check scenarios/t2.yaml\n"
-      "  spf check my_place.yaml --set robot.radius=0.5\n"
+      "  spf check my_scene.yaml --set robot.radius=0.5\n"
       "Exit status: 0 all files are good, 2 one is not; every problem is printed as file:line:column: ...");
   return {app, [options](const std::vector<std::string>&) { return check(*options); }};
 }

@@ -1,4 +1,4 @@
-// What the verbs of the program have in common.
+// Common parts of the program's verbs.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,10 +14,10 @@ namespace spf {
 
 inline constexpr int kDone = 0;
 inline constexpr int kFailedCheck = 1;  ///< ran, but failed what it checks
-inline constexpr int kBadInput = 2;     ///< bad usage, input, or a place that cannot be written
+inline constexpr int kBadInput = 2;     ///< bad usage, input, or a path that cannot be written
 
-/// A verb registers itself and returns what runs it, given the words of the command line; that returns the
-/// exit status.
+/// A verb registers itself and returns the function that runs it: given the words of the command line, it
+/// returns the exit status.
 struct Verb {
   CLI::App* app = nullptr;
   std::function<int(const std::vector<std::string>& command)> run;
@@ -29,7 +29,7 @@ struct ScenarioOptions {
   std::vector<std::string> settings;
 
   void add_to(CLI::App& app);
-  /// As settings, in the order in which they count: named options first, then --set.
+  /// As settings in ascending precedence: named options first, then --set.
   [[nodiscard]] std::vector<Setting> to_settings() const;
 };
 

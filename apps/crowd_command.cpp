@@ -41,7 +41,8 @@ class OptionMaker {
 
 int make(const CrowdOptions& options) {
   const std::vector<sim::CrowdSample> samples = sim::generate_crowd(options.parameters, options.seed);
-  if (samples.empty()) throw InputError{{"--people", 0, 0}, "nobody came: more people, or a longer duration"};
+  if (samples.empty())
+    throw InputError{{"--people", 0, 0}, "the crowd is empty: ask for more people or a longer duration"};
   write_file_atomically(options.out, crowd_text(samples));
   std::set<int> people;
   for (const sim::CrowdSample& sample : samples) people.insert(sample.id);
@@ -61,7 +62,7 @@ Verb add_crowd(CLI::App& program) {
       ->type_name("FILE")
       ->required();
   app->add_option("--seed", options->seed,
-                  "seed of everybody's ways (default " + std::to_string(sim::kDefaultSeed) + ")")
+                  "seed of the crowd (default " + std::to_string(sim::kDefaultSeed) + ")")
       ->type_name("N");
   sim::CrowdGeneratorParameters::visit_fields(options->parameters, OptionMaker{*app});
   app->footer(

@@ -1,4 +1,4 @@
-// spf experiment: runs a campaign, whole or a part of it, and goes on with an interrupted one.
+// spf experiment: runs a campaign or a part of it, and continues an interrupted one.
 #include <algorithm>
 #include <charconv>
 #include <iostream>
@@ -86,7 +86,7 @@ CampaignPlan read_plan(const ExperimentOptions& options) {
   return read_campaign(options.campaign, settings, scene, options.known_methods);
 }
 
-/// Leaves the methods and trackings that were asked for, by the names of the rows.
+/// Keeps the methods and trackings that were asked for, by the names of the rows.
 void narrow(CampaignPlan& plan, const ExperimentOptions& options) {
   const auto keep = [](const std::vector<std::string>& wanted, const std::string& name) {
     return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
@@ -120,7 +120,7 @@ Shard read_shard(const std::string& text) {
   return shard;
 }
 
-/// One campaign on its way through `spf experiment`.
+/// One call of `spf experiment`.
 class Experiment {
  public:
   Experiment(const ExperimentOptions& options, CampaignPlan plan)
@@ -215,7 +215,8 @@ class Experiment {
                    clock_text(left) + " left");
   }
 
-  /// Of the first trial of every cell, where the campaign asks for them and this part has that trial.
+  /// Pictures of the first trial of every cell, if the campaign asks for them and this part contains that
+  /// trial.
   void draw_pictures() {
     if (!has_pictures(plan_.campaign)) return;
     std::error_code error;
@@ -323,9 +324,8 @@ Verb add_experiment(CLI::App& program, const MethodTable& methods) {
       "  spf experiment table2 --trials 500 --out results/table2 --resume\n"
       "  spf experiment table3 --shard 3/8 --out results/table3/part3\n"
       "  spf experiment table2 --method orca,space_time --noise walk --level 1 --tracking ideal --json -\n"
-      "Every trial is on the disk as soon as it ends. Exit status: 0 done, 2 bad usage or input, or a place "
-      "that\n"
-      "cannot be written, 130 interrupted (go on with --resume).");
+      "Every trial is on the disk as soon as it ends. Exit status: 0 done, 2 bad usage or input, or a path\n"
+      "that cannot be written, 130 interrupted (go on with --resume).");
   return {app, [options](const std::vector<std::string>& command) {
             options->command = command;
             return experiment(*options);

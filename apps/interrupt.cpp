@@ -5,7 +5,7 @@
 namespace spf {
 namespace {
 
-// The one thing that a signal handler may touch.
+// A signal handler may write nothing else.
 volatile std::sig_atomic_t signal_seen = 0;
 
 void note_signal(int) {

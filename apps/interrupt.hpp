@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM as a question that long work asks itself.
+// Ctrl-C and SIGTERM as a flag that long computations poll.
 #pragma once
 
 namespace spf {
@@ -7,7 +7,7 @@ namespace spf {
 void catch_interrupts();
 [[nodiscard]] bool interrupted();
 
-/// Exit status of a run that was interrupted, as shells know it.
+/// Exit status of a run that was interrupted, by the convention of shells.
 inline constexpr int kInterruptedStatus = 130;
 
 }  // namespace spf

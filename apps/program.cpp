@@ -1,4 +1,4 @@
-// The spf program: verbs, exit statuses, and how errors are told.
+// The spf program: verbs, exit statuses, and error messages.
 #include "apps/program.hpp"
 
 #include <CLI/CLI.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 int run_verb(int argc, char** argv, const MethodTable& methods) {
   CLI::App program{
-      "spf: robots that cross cluttered, moving, uncertain places.\n"
+      "spf: motion planning for robots in cluttered, dynamic, uncertain surroundings.\n"
       "Simulates scenarios, repeats them over trials, and shows them in a replay page."};
   program.name("spf");
   program.set_version_flag("--version",

@@ -1,4 +1,4 @@
-// The spf program as a function, for programs that know more methods than it does (docs/add_a_method.md).
+// The spf program as a function, for programs with further methods (docs/add_a_method.md).
 #pragma once
 
 #include "spf/team/method_table.hpp"

@@ -27,7 +27,7 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::show(const std::string& text) {
   constexpr double kOnTerminal = 0.2;  // [s]
-  constexpr double kElsewhere = 10.0;  // [s] a log is to stay readable
+  constexpr double kElsewhere = 10.0;  // [s] keeps a log readable
   const double now = steady_seconds();
   if (quiet_) return;
   if (next_ == 0.0 && !terminal_) next_ = now + kElsewhere;  // short work leaves no line in a log

@@ -1,4 +1,4 @@
-// Progress on stderr: one line that is rewritten on a terminal, a line now and then elsewhere, nothing when
+// Progress on stderr: one line that is rewritten on a terminal, an occasional line elsewhere, nothing when
 // quiet.
 #pragma once
 
@@ -19,7 +19,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Shows the text when it is time to; call it as often as you like.
+  /// Shows the text when an update is due; may be called at any rate.
   void show(const std::string& text);
   /// Ends the line, so that other output starts on a fresh one.
   void end();

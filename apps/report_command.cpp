@@ -1,4 +1,4 @@
-// spf report: merges the results of campaigns and runs, and makes a page of them.
+// spf report: merges the results of campaigns and runs into a page.
 #include <algorithm>
 #include <iostream>
 #include <limits>
@@ -35,7 +35,7 @@ struct ReportOptions {
   MethodTable methods;
 };
 
-/// The deepest folder that holds all of them.
+/// The deepest folder that contains all of them.
 fs::path common_folder(const std::vector<fs::path>& folders) {
   fs::path common = folders.front();
   for (const fs::path& folder : folders) {
@@ -116,7 +116,7 @@ class Report {
     return "<p class=\"muted\">" + escape_html(text) + "</p>";
   }
 
-  /// Every chart as a file of its own.
+  /// Every chart as a separate file.
   void write_charts(const CampaignParts& parts) const {
     if (options_.charts.empty()) return;
     const fs::path folder = options_.charts;
@@ -131,7 +131,7 @@ class Report {
     return options_.replays == "all" ? std::numeric_limits<int>::max() : std::stoi(options_.replays);
   }
 
-  /// Failed trials, in turn from every cell, run again and recorded.
+  /// Failed trials, taken from all cells in turn, run again and recorded.
   ReplayLinks write_replays(const CampaignParts& parts) {
     ReplayLinks links;
     std::vector<std::vector<const TrialRecord*>> failed(parts.cells.size());
@@ -153,7 +153,7 @@ class Report {
     return links;
   }
 
-  /// The file's name holds the trial's digest: what an earlier report left there is this very trial.
+  /// The file's name contains the trial's digest, so a page of an earlier report is that of the same trial.
   std::string write_replay(const CampaignParts& parts, std::size_t cell, const TrialRecord& record) {
     const fs::path folder = page_.parent_path() / (page_.stem().string() + "_replays");
     const std::string cell_name = cell_file_name(record.key);
@@ -169,7 +169,7 @@ class Report {
     if (!page) return "";
     if (page->went_another_way)
       std::cerr << "warning: trial " << record.key.trial << " of " << cell_text(record.key)
-                << " went another way than in the results: they come from another version\n";
+                << " differs from the results, which come from another version\n";
     fs::create_directories(folder, error);
     if (error) throw OutputError{folder.string() + ": cannot be made: " + error.message()};
     write_file_atomically(folder / name, page->html);
@@ -227,7 +227,7 @@ Verb add_report(CLI::App& program, const MethodTable& methods) {
       "  spf report results/table2                            # then open results/table2/report.html\n"
       "  spf report results/table3/part* --out results/table3.html --csv --markdown\n"
       "  spf report results/table2 --replays all              # half a megabyte for every failed trial\n"
-      "Exit status: 0 done, 2 bad usage or input, or a place that cannot be written, 130 interrupted.");
+      "Exit status: 0 done, 2 bad usage or input, or a path that cannot be written, 130 interrupted.");
   return {app, [options](const std::vector<std::string>&) { return report(*options); }};
 }
 

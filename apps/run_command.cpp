@@ -36,7 +36,7 @@ std::string time_left(double elapsed, std::size_t done, int all) {
   return ", " + clock_text(elapsed / static_cast<double>(done) * (all - static_cast<int>(done))) + " left";
 }
 
-/// One scenario on its way through `spf run`: a campaign of one cell.
+/// One call of `spf run`: a campaign of one cell.
 class Run {
  public:
   Run(const RunOptions& options, RunConfiguration config)
@@ -120,7 +120,7 @@ class Run {
       const std::optional<ReplayPage> page = replay_page(cell(), record, steady_seconds, interrupted);
       if (!page) return;
       if (page->went_another_way)
-        std::cerr << "warning: trial " << record.key.trial << " went another way when it was run again\n";
+        std::cerr << "warning: trial " << record.key.trial << " gave another result when it was run again\n";
       write_page(replay_name(record.key.trial), page->html);
       ++written;
     }
@@ -207,7 +207,8 @@ Verb add_run(CLI::App& program, const MethodTable& methods) {
       "  spf run scenarios/t2.yaml --trials 50 --jobs 2 --noise walk --level 1 --json row.jsonl\n"
       "  spf run scenarios/t2.yaml --first 17 --method spf_empc --out results/trial17\n"
       "  spf run scenarios/field.yaml --set robots=200 --set sensing.range=5\n"
-      "Exit status: 0 done (a single run: every robot home without contact), 1 a single run that failed,\n"
+      "Exit status: 0 done (a single run: every robot at its goal without contact), 1 a single run that "
+      "failed,\n"
       "2 bad usage or input, 130 interrupted (with --trials, the trials that ended are kept).");
   return {app, [options](const std::vector<std::string>& command) {
             options->command = command;

@@ -97,7 +97,7 @@ std::string summary_text(const RunConfiguration& config, const std::vector<Trial
     add("contacts while moving", rate_text(row.contacts_moving, row));
     add("hits while standing", rate_text(row.hits_while_standing, row));
   }
-  add("robots home", std::to_string(row.arrived_robots) + " of " + std::to_string(row.robots));
+  add("robots at goal", std::to_string(row.arrived_robots) + " of " + std::to_string(row.robots));
   add("travel time", fixed(row.travel_time_mean, 2) + " s, " + fixed(row.travel_time_ratio, 3) +
                          " times the obstacle-free optimum");
   add("path length",

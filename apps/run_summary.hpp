@@ -1,4 +1,4 @@
-// What `spf run` prints and writes about its trials, beside the trials themselves.
+// What `spf run` prints and writes about its trials, besides their records.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace spf {
 
-/// Most memory that the program has held so far [byte].
+/// Peak memory of the program so far [byte].
 [[nodiscard]] double peak_memory();
 
 /// The table on stdout: outcome, times, distances, computing, and the failed trials with their reasons.
-/// `memory` [byte] is what all of it took; of a single trial it is told by robot, too.
+/// `memory` [byte] is the peak memory; for a single trial it is also given per robot.
 [[nodiscard]] std::string summary_text(const RunConfiguration& config, const std::vector<TrialRecord>& trials,
                                        double memory);
 
@@ -28,10 +28,10 @@ struct RunFacts {
   double peak_memory = 0.0;  ///< [byte]
 };
 
-/// run.json: what made these results.
+/// run.json: how these results were made.
 [[nodiscard]] std::string run_json(const RunConfiguration& config, const RunFacts& facts);
 
-/// Now, as 2026-01-31T12:00:00Z.
+/// The present time, as 2026-01-31T12:00:00Z.
 [[nodiscard]] std::string today();
 
 /// scenario.yaml: every key written out; running it again gives the same trials.

@@ -1,7 +1,8 @@
-// The whole agent at work: what a planning call (with taking in what was seen and heard) and a control tick
-// (with the poses since the last) cost in simulated trials of the experiment protocol (docs/protocol.md). One
-// iteration simulates the first ten seconds of one trial; the counters are over all calls of all robots:
-// plan_us_*, control_us_*. `x_real_time` is the simulator with all its robots on one core against the clock.
+// The whole agent: computing time of a planning call (including its observations and messages) and of a
+// control tick (including the poses since the last one) in simulated trials of the experiment protocol
+// (docs/protocol.md). One iteration simulates the first ten seconds of one trial; the counters are over all
+// calls of all robots: plan_us_*, control_us_*. `x_real_time` is simulated time over wall time on one core
+// with all robots.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace {
 
-constexpr int kFirstTrial = 10000;  // those below are for claims
+constexpr int kFirstTrial = 10000;  // lower numbers are reserved for claims
 constexpr double kSeconds = 10.0;   // [s] simulated of each trial
 
 double steady_seconds() {

@@ -1,5 +1,5 @@
-// The paper's planner: one evaluation of the whole cost with its gradient, and whole plans, cold and warm,
-// among 30 static obstacles and 10 peers. Counters give the 99th percentile and the worst besides the mean.
+// The paper's planner: one evaluation of the total cost with its gradient, and complete plans, cold and warm,
+// among 30 static obstacles and 10 peers. Counters give the 99th percentile and the maximum besides the mean.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace spf {
 namespace {
 
-/// A field of 30 m with 30 boxes, peers under way and moving obstacles, for one robot that crosses it.
+/// A field of 30 m with 30 boxes, moving peers and moving obstacles, for one robot that crosses it.
 struct Scene {
   OccupancyMap map{GridFrame::covering({-15.0, -15.0}, {15.0, 15.0}, 0.1), 2.0};
   std::vector<ObstacleTrack> tracks;
@@ -24,7 +24,7 @@ struct Scene {
 
   Scene(std::uint64_t seed, int boxes, int peer_count, int obstacles) {
     RandomStream random{seed};
-    const auto place = [&random](double half) {
+    const auto position = [&random](double half) {
       const double x = random.uniform(-half, half);
       const double y = random.uniform(-half, half);
       return Eigen::Vector2d{x, y};
@@ -34,7 +34,7 @@ struct Scene {
     map.add_border({-15.0, -15.0}, {15.0, 15.0});
     std::vector<Eigen::Vector2d> centers;
     while (static_cast<int>(centers.size()) < boxes) {
-      const Eigen::Vector2d center = place(10.0);
+      const Eigen::Vector2d center = position(10.0);
       const bool crowded = std::any_of(centers.begin(), centers.end(), [&](const Eigen::Vector2d& other) {
         return (other - center).norm() < 1.9;
       });
@@ -116,8 +116,8 @@ void report(benchmark::State& state, std::vector<double>& milliseconds, int succ
   state.counters["ok_share"] = static_cast<double>(successes) / static_cast<double>(milliseconds.size());
 }
 
-/// Arguments: dynamic model, moving obstacles, 1 = warm. A new scene each time; warm plans go on from 0.5 s
-/// into a cold one.
+/// Arguments: dynamic model, moving obstacles, 1 = warm. A new scene each time; warm plans start 0.5 s into a
+/// cold one.
 void one_plan(benchmark::State& state) {
   PlannerParameters parameters;
   parameters.dynamic_model = static_cast<DynamicModel>(state.range(0));

@@ -1,4 +1,4 @@
-// The safety probability field: building one, and asking it.
+// The safety probability field: construction and queries.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -29,7 +29,8 @@ void build_field(benchmark::State& state) {
 }
 BENCHMARK(build_field);
 
-/// One point: what a node costs (distance, direction, guide point), and the density with its gradient.
+/// Queries at one point: those of a node (distance, direction, guide point), and the density with its
+/// gradient.
 template <class Query>
 void ask_field(benchmark::State& state, const Query& query) {
   RandomStream random{2};

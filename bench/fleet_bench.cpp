@@ -1,7 +1,7 @@
-// What a robot costs in a fleet: the same field, equally dense, with 50 and with a thousand robots, whole
-// trials. The cost is processor time of all threads, so that other programs on the machine matter little;
-// both sizes run in turn, and `ratio` is what the larger fleet makes of it. `x_real_time` is against the
-// clock.
+// Cost of a robot in a fleet: complete trials in a field of equal density with 50 and with a thousand robots.
+// The cost is processor time of all threads, so that other programs on the machine matter little; both sizes
+// run in turn, and `ratio` is the larger fleet's cost over the smaller one's. `x_real_time` is simulated time
+// over wall time.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr int kFirstTrial = 10000;  // those below are for claims
+constexpr int kFirstTrial = 10000;  // lower numbers are reserved for claims
 constexpr int kSmall = 50;          // robots
 
 double steady_seconds() {

@@ -1,6 +1,6 @@
-// The control tick and its parts: observer, MPC, whole tracker, with Ipopt on the same problem beside the
-// MPC. Each benchmark walks through the same 2000 random instances again and again; counters give median,
-// 99th percentile and worst of single calls [us], timed one by one (the clock itself costs some 0.03 us).
+// The control tick and its parts: observer, MPC, whole tracker, with Ipopt on the same problem for
+// comparison. Each benchmark cycles through the same 2000 random instances; counters give median, 99th
+// percentile and maximum of single calls [us], timed one by one (the clock itself costs some 0.03 us).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -22,7 +22,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> closest_name(std::string_view name, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 100;  // nobody mistypes a name of this length
+  constexpr std::size_t kLongest = 100;  // no name of this length is a typing error
   if (name.empty() || name.size() > kLongest) return std::nullopt;
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;

@@ -1,5 +1,4 @@
-// Shows a parameter struct to a visitor without some of its fields, such as those that another key of a file
-// sets.
+// Hides some fields of a parameter struct from a visitor, such as those that another key of a file sets.
 #pragma once
 
 #include <algorithm>

@@ -6,16 +6,16 @@
 
 namespace spf {
 
-std::string to_string(const SourcePlace& place) {
-  std::string text = place.source;
-  if (place.line > 0) text += ":" + std::to_string(place.line);
-  if (place.line > 0 && place.column > 0) text += ":" + std::to_string(place.column);
+std::string to_string(const SourceLocation& location) {
+  std::string text = location.source;
+  if (location.line > 0) text += ":" + std::to_string(location.line);
+  if (location.line > 0 && location.column > 0) text += ":" + std::to_string(location.column);
   return text;
 }
 
 namespace {
 
-/// Is the path `inner` the path `outer`, or a part of it?
+/// Whether the path `inner` is the path `outer` or lies below it.
 bool lies_within(std::string_view inner, std::string_view outer) {
   if (inner.substr(0, outer.size()) != outer) return false;
   return inner.size() == outer.size() || inner[outer.size()] == '.' || inner[outer.size()] == '[';
@@ -23,11 +23,11 @@ bool lies_within(std::string_view inner, std::string_view outer) {
 
 }  // namespace
 
-void InputProblems::add(const SourcePlace& place, std::string sentence, std::string key) {
+void InputProblems::add(const SourceLocation& location, std::string sentence, std::string key) {
   if (full())
     ++left_out_;
   else
-    kept_.push_back({place, std::move(sentence), std::move(key)});
+    kept_.push_back({location, std::move(sentence), std::move(key)});
 }
 
 bool InputProblems::refuses(std::string_view key) const {
@@ -39,12 +39,12 @@ bool InputProblems::refuses(std::string_view key) const {
 std::string InputProblems::to_text() const {
   std::vector<InputProblem> sorted = kept_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const InputProblem& a, const InputProblem& b) {
-    return std::tie(a.place.source, a.place.line, a.place.column) <
-           std::tie(b.place.source, b.place.line, b.place.column);
+    return std::tie(a.location.source, a.location.line, a.location.column) <
+           std::tie(b.location.source, b.location.line, b.location.column);
   });
   std::string text;
   for (const InputProblem& problem : sorted)
-    text += (text.empty() ? "" : "\n") + to_string(problem.place) + ": " + problem.sentence;
+    text += (text.empty() ? "" : "\n") + to_string(problem.location) + ": " + problem.sentence;
   if (left_out_ > 0) text += "\n(and " + std::to_string(left_out_) + " more)";
   return text;
 }
@@ -54,14 +54,14 @@ void InputProblems::throw_if_any() const {
 }
 
 namespace {
-InputProblems one_problem(const SourcePlace& place, std::string sentence) {
+InputProblems one_problem(const SourceLocation& location, std::string sentence) {
   InputProblems problems;
-  problems.add(place, std::move(sentence));
+  problems.add(location, std::move(sentence));
   return problems;
 }
 }  // namespace
 
-InputError::InputError(const SourcePlace& place, std::string sentence)
-    : InputError{one_problem(place, std::move(sentence))} {}
+InputError::InputError(const SourceLocation& location, std::string sentence)
+    : InputError{one_problem(location, std::move(sentence))} {}
 
 }  // namespace spf

@@ -1,4 +1,4 @@
-// What is wrong with an input, where it stands, and the exception that carries all of it at once.
+// Problems of an input with their locations, and the exception that carries all of them at once.
 #pragma once
 
 #include <stdexcept>
@@ -8,40 +8,40 @@
 
 namespace spf {
 
-/// A place in an input. `line` and `column` count from 1; 0 means "the whole of it" (a file that cannot be
+/// A location in an input. `line` and `column` count from 1; 0 means the whole input (a file that cannot be
 /// read, an option of the command line).
-struct SourcePlace {
+struct SourceLocation {
   std::string source;  ///< file name, or "--set"
   int line = 0;
   int column = 0;
 };
 
 /// "file:line:column", "file:line" or "file".
-[[nodiscard]] std::string to_string(const SourcePlace& place);
+[[nodiscard]] std::string to_string(const SourceLocation& location);
 
 struct InputProblem {
-  SourcePlace place;
+  SourceLocation location;
   std::string sentence;  ///< "noise.level = -1 must lie in [0, 100]"
-  std::string key;       ///< path of what is refused, "noise.level"; empty when it is no value of a document
+  std::string key;  ///< path of the refused value, "noise.level"; empty when it is no value of a document
 };
 
-/// Collects problems in the order in which they are found. Keeps the first `kMostProblems` and counts the
+/// Collects problems in the order in which they are found. Stores the first `kMostProblems` and counts the
 /// rest, so that a file with a million bad lines does not fill the terminal.
 class InputProblems {
  public:
   static constexpr std::size_t kMostProblems = 100;
 
-  void add(const SourcePlace& place, std::string sentence, std::string key = {});
-  /// Was the value at a key path refused, or what it is part of, or a part of it?
+  void add(const SourceLocation& location, std::string sentence, std::string key = {});
+  /// Whether the value at a key path was refused, or a parent or a part of it.
   [[nodiscard]] bool refuses(std::string_view key) const;
-  /// Whatever is added now is only counted.
+  /// True when further problems are only counted.
   [[nodiscard]] bool full() const { return kept_.size() == kMostProblems; }
   [[nodiscard]] bool empty() const { return kept_.empty(); }
   [[nodiscard]] const std::vector<InputProblem>& kept() const { return kept_; }
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
-  /// One problem a line, sorted by place.
+  /// One problem a line, sorted by location.
   [[nodiscard]] std::string to_text() const;
-  /// Throws InputError when there is any.
+  /// Throws InputError unless empty.
   void throw_if_any() const;
 
  private:
@@ -54,7 +54,7 @@ class InputError : public std::runtime_error {
  public:
   explicit InputError(InputProblems problems)
       : std::runtime_error{problems.to_text()}, problems_{std::move(problems)} {}
-  InputError(const SourcePlace& place, std::string sentence);
+  InputError(const SourceLocation& location, std::string sentence);
   [[nodiscard]] const InputProblems& problems() const { return problems_; }
 
  private:

@@ -1,5 +1,5 @@
-// Which method a file names: one of a table's. Read, written and listed like an enumeration, but open: the
-// table may hold methods from elsewhere.
+// The method that a file names, out of a table. Read, written and listed like an enumeration, but open: the
+// table may contain methods defined elsewhere.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace spf {
 class MethodChoice {
  public:
   /// Throws std::invalid_argument when the table has no such method.
-  MethodChoice(std::string_view name = kDefaultMethod, MethodTable table = {});  // NOLINT: a name is a choice
+  MethodChoice(std::string_view name = kDefaultMethod, MethodTable table = {});  // NOLINT: implicit by design
   MethodChoice(const char* name) : MethodChoice{std::string_view{name}} {}       // NOLINT
 
   [[nodiscard]] const std::string& name() const { return method_.name; }

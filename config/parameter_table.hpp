@@ -17,12 +17,12 @@ template <>
 struct EnumNames<Scale> {
   static constexpr std::array<std::pair<Scale, const char*>, 7> values{
       {{Scale::size, "size"},
-       {Scale::stopping_distance, "way"},
+       {Scale::stopping_distance, "distance"},
        {Scale::speed, "speed"},
        {Scale::time, "time"},
        {Scale::area, "size^2"},
        {Scale::velocity_diffusion, "speed^2/time"},
-       {Scale::position_diffusion, "way^2/time"}}};
+       {Scale::position_diffusion, "distance^2/time"}}};
 };
 
 struct ParameterRow {
@@ -31,7 +31,7 @@ struct ParameterRow {
   std::string unit;          ///< "m", "1" for pure numbers, empty for choices and text
   std::string range;         ///< "[0, 1]", or the names of a choice
   std::string what;          ///< meaning and source
-  std::string follows = {};  ///< what of the robot the default follows (Scale), empty when it does not
+  std::string follows = {};  ///< the property of the robot that the default follows (Scale), empty when none
 };
 
 /// Visitor for visit_fields; made by parameter_rows.

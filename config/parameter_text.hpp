@@ -29,7 +29,7 @@ template <class E, class = decltype(EnumNames<E>::values)>
   return enum_name(value);
 }
 
-/// What may stand there: "true, false", "text", or the names of an enumeration.
+/// The possible values: "true, false", "text", or the names of an enumeration.
 [[nodiscard]] std::string choices_of(bool);
 [[nodiscard]] std::string choices_of(const std::string&);
 template <class E, class = decltype(EnumNames<E>::values)>

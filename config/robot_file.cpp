@@ -1,5 +1,8 @@
 #include "config/robot_file.hpp"
 
+#include <utility>
+
+#include "config/renamed_keys.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
 #include "spf/robot/robot_scale.hpp"
@@ -7,9 +10,10 @@
 namespace spf {
 namespace {
 
-RobotFile read_document(const YamlNode& root, const MethodTable& methods, InputProblems problems) {
-  if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
+RobotFile read_document(YamlNode root, const MethodTable& methods, InputProblems problems) {
+  if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to check further
   if (!require_map(root, problems)) problems.throw_if_any();
+  rename_old_keys(root, OldKey::conflicts, problems);
   RobotFile head;
   head.method = MethodChoice{kDefaultMethod, methods};
   const std::vector<std::string> keys = keys_of(head);
@@ -36,14 +40,14 @@ RobotFile default_robot_file(const MethodChoice& method, const RobotParameters& 
 RobotFile read_robot_file(const std::string& path, const MethodTable& methods) {
   if (path.empty()) return default_robot_file({kDefaultMethod, methods}, {});
   InputProblems problems;
-  const YamlNode root = read_yaml_file(path, problems);
-  return read_document(root, methods, std::move(problems));
+  YamlNode root = read_yaml_file(path, problems);
+  return read_document(std::move(root), methods, std::move(problems));
 }
 
 RobotFile robot_file_from_text(const std::string& text, const std::string& name, const MethodTable& methods) {
   InputProblems problems;
-  const YamlNode root = parse_yaml(text, name, problems);
-  return read_document(root, methods, std::move(problems));
+  YamlNode root = parse_yaml(text, name, problems);
+  return read_document(std::move(root), methods, std::move(problems));
 }
 
 std::string to_yaml_text(const RobotFile& file, bool explains) {

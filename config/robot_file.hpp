@@ -1,5 +1,5 @@
-// The parameter file of one robot: the keys of a scenario file that concern a robot (method, robot, agent),
-// and its host's. Read with the same checks and messages as scenario files.
+// The parameter file of one robot: those keys of a scenario file that concern a robot (method, robot, agent),
+// and those of its host. Read with the same checks and messages as scenario files.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct RobotFile {
     visit_head(self, visit);
     visit_parameters(self, visit);
   }
-  /// What the defaults of the rest depend on.
+  /// The keys on which the defaults of the others depend.
   template <class Self, class Visitor>
   static void visit_head(Self& self, Visitor&& visit) {
     visit("method", self.method, "how the robot plans and tracks: a set of agent parameters");
@@ -38,20 +38,20 @@ struct RobotFile {
   }
 };
 
-/// What a file that says no more than this starts from: many defaults follow the robot (ScaledUnit).
+/// The defaults for a method and a robot: many follow the robot (ScaledUnit).
 [[nodiscard]] RobotFile default_robot_file(const MethodChoice& method, const RobotParameters& robot);
 
-/// Throws InputError with every problem. An empty path gives the defaults. `methods` are those that a file
+/// Throws InputError with every problem. An empty path gives the defaults. `methods` are those that the file
 /// may name.
 [[nodiscard]] RobotFile read_robot_file(const std::string& path, const MethodTable& methods = {});
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] RobotFile robot_file_from_text(const std::string& text, const std::string& name,
                                              const MethodTable& methods = {});
 
-/// The file that gives this, every key written out.
+/// The text of a file that gives `file`, with every key written out.
 [[nodiscard]] std::string to_yaml_text(const RobotFile& file, bool explains = false);
 
-/// What a host hands to its agent: `agent` with the file's robot.
+/// The agent's parameters: `agent` with the file's robot.
 [[nodiscard]] AgentParameters agent_parameters(const RobotFile& file);
 
 }  // namespace spf

@@ -29,7 +29,7 @@ bool is_one_of(std::string_view text, std::initializer_list<std::string_view> wo
   return std::find(words.begin(), words.end(), text) != words.end();
 }
 
-/// Why a text is no number: it may be a number with its unit.
+/// Why a text is no number, for example a number with its unit.
 std::string no_number(std::string_view text, const char* rest, const char* kind, const char* unit) {
   std::string sentence = std::string{"must be "} + kind + in_unit(unit);
   const bool begins_with_number = rest != text.data() && text.find_first_of("0123456789") < 2;
@@ -108,7 +108,7 @@ std::string last_part(const std::string& key) {
 }  // namespace
 
 void ReadTarget::refuse(const std::string& sentence) const {
-  problems.add(node.place, key + " = " + shown(node) + " " + sentence, key);
+  problems.add(node.location, key + " = " + shown(node) + " " + sentence, key);
 }
 
 void read_value(const ReadTarget& target, const char* unit, Range range, double& value) {
@@ -161,7 +161,7 @@ std::optional<std::size_t> read_name(const ReadTarget& target, const std::vector
   if (target.node.kind == YamlKind::scalar)
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i] == text) return i;
-  // Nobody reads the hint of a problem that is only counted.
+  // A problem that is only counted needs no hint.
   const std::optional<std::string> meant = target.problems.full() ? std::nullopt : closest_name(text, names);
   target.refuse("must be one of " + listed(names) + (meant ? "; did you mean " + *meant + "?" : ""));
   return std::nullopt;
@@ -188,14 +188,15 @@ const YamlNode* FieldReader::take_list(const char* name) {
 }
 
 void FieldReader::required(const char* name) {
-  if (map_.find(name) == nullptr) problems_.add(map_.place, prefix_ + name + " is missing", prefix_ + name);
+  if (map_.find(name) == nullptr)
+    problems_.add(map_.location, prefix_ + name + " is missing", prefix_ + name);
 }
 
 void FieldReader::finish() {
   for (const YamlEntry& entry : map_.entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-    if (problems_.full()) {  // nobody reads more hints
-      problems_.add(entry.key_place, "");
+    if (problems_.full()) {  // more hints are not shown
+      problems_.add(entry.key_location, "");
       continue;
     }
     std::optional<std::string> meant = closest_name(entry.key, known_);
@@ -206,15 +207,16 @@ void FieldReader::finish() {
     YamlNode key;
     key.kind = YamlKind::scalar;
     key.text = entry.key;
-    problems_.add(entry.key_place, prefix_ + shown(key) + " = " + shown(entry.value) + " is not a known key" +
-                                       (meant ? "; did you mean " + *meant + "?" : ""));
+    problems_.add(entry.key_location, prefix_ + shown(key) + " = " + shown(entry.value) +
+                                          " is not a known key" +
+                                          (meant ? "; did you mean " + *meant + "?" : ""));
   }
 }
 
 bool require_map(const YamlNode& root, InputProblems& problems) {
   if (root.kind == YamlKind::map) return true;
   if (root.kind != YamlKind::nothing || problems.empty())
-    problems.add(root.place, "must be a map of keys and values, not " + shown(root));
+    problems.add(root.location, "must be a map of keys and values, not " + shown(root));
   return false;
 }
 

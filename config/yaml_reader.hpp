@@ -1,6 +1,6 @@
 // Fills any parameter struct from a YAML map by walking its visit_fields list, the one declaration of its
-// fields. Every problem is collected with file, line, column, key, value and limit; nothing throws and no bad
-// value is taken over.
+// fields. Every problem is collected with file, line, column, key, value and limit; nothing throws, and bad
+// values are not stored.
 //
 // Beside the calls of spf/math/parameters.hpp a visit_fields may use
 //   visit(name, Eigen::Vector2d or std::optional<double>, unit, range, what)
@@ -30,13 +30,13 @@ namespace spf {
 /// Longer lists are refused.
 inline constexpr std::size_t kMostEntries = 10'000;
 
-/// What a value is read for: its full key and where problems go.
+/// The full key of a value to read, and where to report problems.
 struct ReadTarget {
   const YamlNode& node;
   std::string key;  ///< "noise.level"
   InputProblems& problems;
 
-  /// Adds "key = value sentence" at the node's place.
+  /// Adds "key = value sentence" at the node's location.
   void refuse(const std::string& sentence) const;
 };
 
@@ -47,7 +47,7 @@ void read_value(const ReadTarget& target, const char* unit, Range range, Eigen::
 void read_value(const ReadTarget& target, const char* unit, Range range, std::optional<double>& value);
 void read_choice(const ReadTarget& target, bool& value);
 void read_choice(const ReadTarget& target, std::string& value);
-/// Index of the name that stands there.
+/// Index of the name given.
 [[nodiscard]] std::optional<std::size_t> read_name(const ReadTarget& target,
                                                    const std::vector<std::string>& names);
 
@@ -147,14 +147,14 @@ class FieldReader {
       read_map(node->items[i], prefix_ + name + "[" + std::to_string(i) + "]", entries[i]);
   }
   void required(const char* name);
-  /// Refuses the keys that no visit asked for.
+  /// Refuses the keys that no visit has read.
   void finish();
 
  private:
   template <class Nested>
   void read_map(const YamlNode& node, const std::string& key, Nested& nested) {
     if (node.kind == YamlKind::nothing) {
-      // An empty group sets nothing; what it requires is still missing.
+      // An empty group sets nothing; its required keys are missing.
     } else if (node.kind != YamlKind::map) {
       return ReadTarget{node, key, problems_}.refuse("must be a map of keys and values");
     }
@@ -181,7 +181,8 @@ class FieldReader {
   std::vector<std::string> known_;
 };
 
-/// Is the document a map? If not, says so, unless it could not be read at all, which has been said.
+/// Whether the document is a map; reports a problem if not, unless one was reported when it could not be
+/// read.
 [[nodiscard]] bool require_map(const YamlNode& root, InputProblems& problems);
 
 /// Reads the document `root` over `parameters`: keys that are absent keep their value.

@@ -218,7 +218,7 @@ TEST(YamlReader, RefusesBrokenSyntaxWithItsLine) {
     SCOPED_TRACE(text);
     const Read result = read(text);
     ASSERT_FALSE(result.problems.empty());
-    EXPECT_EQ(result.problems.kept().front().place.source, "file.yaml");
+    EXPECT_EQ(result.problems.kept().front().location.source, "file.yaml");
   }
 }
 

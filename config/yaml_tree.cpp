@@ -18,9 +18,9 @@
 namespace spf {
 namespace {
 
-/// Ends the parse at once; yaml-cpp lets exceptions of its handlers pass.
+/// Ends the parse at once; yaml-cpp passes exceptions of its handlers on.
 struct DocumentRefused {
-  SourcePlace place;
+  SourceLocation location;
   std::string sentence;
 };
 
@@ -39,7 +39,7 @@ class TreeBuilder : public YAML::EventHandler {
     leaf(YamlKind::nothing, mark, "", anchor, "");
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    problems_.add(place(mark), "aliases (*name) are not supported: write the value out");
+    problems_.add(location(mark), "aliases (*name) are not supported: write the value out");
     leaf(YamlKind::nothing, mark, "", 0, "");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -61,24 +61,24 @@ class TreeBuilder : public YAML::EventHandler {
   /// A list or map that is being read.
   struct Level {
     YamlNode node;
-    std::optional<std::pair<std::string, SourcePlace>> key;  ///< read, its value not yet
-    bool skips_value = false;                                ///< the key was refused, and so is its value
-    std::map<std::string, int, std::less<>> lines;           ///< of the keys so far, to find duplicates fast
+    std::optional<std::pair<std::string, SourceLocation>> key;  ///< read, its value not yet
+    bool skips_value = false;                                   ///< the key was refused, and so is its value
+    std::map<std::string, int, std::less<>> lines;  ///< of the keys so far, to find duplicates fast
   };
 
-  [[nodiscard]] SourcePlace place(const YAML::Mark& mark) const {
+  [[nodiscard]] SourceLocation location(const YAML::Mark& mark) const {
     return {source_, mark.line + 1, mark.column + 1};
   }
 
   YamlNode node(YamlKind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (++nodes_ > limits_.nodes)
-      throw DocumentRefused{place(mark), "holds more than " + std::to_string(limits_.nodes) + " values"};
-    if (anchor != 0) problems_.add(place(mark), "anchors (&name) are not supported");
+      throw DocumentRefused{location(mark), "holds more than " + std::to_string(limits_.nodes) + " values"};
+    if (anchor != 0) problems_.add(location(mark), "anchors (&name) are not supported");
     if (!tag.empty() && tag != "?" && tag != "!")
-      problems_.add(place(mark), "tags (" + tag + ") are not supported");
+      problems_.add(location(mark), "tags (" + tag + ") are not supported");
     YamlNode made;
     made.kind = kind;
-    made.place = place(mark);
+    made.location = location(mark);
     made.quoted = tag == "!";
     return made;
   }
@@ -90,7 +90,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void open(YamlKind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (levels_.size() >= limits_.depth)
-      throw DocumentRefused{place(mark),
+      throw DocumentRefused{location(mark),
                             "is nested deeper than " + std::to_string(limits_.depth) + " levels"};
     levels_.push_back({node(kind, mark, tag, anchor), {}, false, {}});
   }
@@ -120,14 +120,14 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void take_key(Level& parent, YamlNode made) {
     if (made.kind != YamlKind::scalar) {
-      problems_.add(made.place, "a key must be a plain name, not " + shown(made));
+      problems_.add(made.location, "a key must be a plain name, not " + shown(made));
       parent.skips_value = true;
-    } else if (const auto [first, is_new] = parent.lines.emplace(made.text, made.place.line); !is_new) {
-      problems_.add(made.place, "key " + shown(made) + " stands twice (first in line " +
-                                    std::to_string(first->second) + ")");
+    } else if (const auto [first, is_new] = parent.lines.emplace(made.text, made.location.line); !is_new) {
+      problems_.add(made.location, "key " + shown(made) + " stands twice (first in line " +
+                                       std::to_string(first->second) + ")");
       parent.skips_value = true;
     } else {
-      parent.key.emplace(made.text, made.place);
+      parent.key.emplace(made.text, made.location);
     }
   }
 
@@ -139,16 +139,16 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-SourcePlace place_of_byte(std::string_view text, std::size_t offset, const std::string& source) {
-  SourcePlace place{source, 1, 1};
+SourceLocation place_of_byte(std::string_view text, std::size_t offset, const std::string& source) {
+  SourceLocation location{source, 1, 1};
   for (std::size_t i = 0; i < offset; ++i) {
     if (text[i] == '\n') {
-      ++place.line;
-      place.column = 0;
+      ++location.line;
+      location.column = 0;
     }
-    ++place.column;
+    ++location.column;
   }
-  return place;
+  return location;
 }
 
 }  // namespace
@@ -171,9 +171,9 @@ YamlNode* YamlNode::find(std::string_view key) {
 
 YamlNode parse_yaml(std::string_view text, const std::string& source, InputProblems& problems,
                     const YamlLimits& limits) {
-  const SourcePlace whole{source, 0, 0};
+  const SourceLocation whole{source, 0, 0};
   YamlNode nothing;
-  nothing.place = whole;
+  nothing.location = whole;
   if (text.size() > limits.bytes) {
     problems.add(whole, "is larger than " + std::to_string(limits.bytes >> 20) + " MiB");
     return nothing;
@@ -196,22 +196,22 @@ YamlNode parse_yaml(std::string_view text, const std::string& source, InputProbl
     YamlNode root = builder.take();
     TreeBuilder second{source, limits, problems};
     if (parser.HandleNextDocument(second))
-      problems.add(second.take().place, "must hold one YAML document, not several");
+      problems.add(second.take().location, "must hold one YAML document, not several");
     return root;
   } catch (const DocumentRefused& refused) {
-    problems.add(refused.place, refused.sentence);
+    problems.add(refused.location, refused.sentence);
   } catch (const YAML::Exception& error) {
     const bool known = error.mark.line >= 0;
-    problems.add(known ? SourcePlace{source, error.mark.line + 1, error.mark.column + 1} : whole,
+    problems.add(known ? SourceLocation{source, error.mark.line + 1, error.mark.column + 1} : whole,
                  "is not YAML: " + error.msg);
   }
   return nothing;
 }
 
 YamlNode read_yaml_file(const std::string& path, InputProblems& problems, const YamlLimits& limits) {
-  const SourcePlace whole{path, 0, 0};
+  const SourceLocation whole{path, 0, 0};
   YamlNode nothing;
-  nothing.place = whole;
+  nothing.location = whole;
   const auto refuse = [&](const std::string& sentence) {
     problems.add(whole, sentence);
     return nothing;
@@ -235,12 +235,12 @@ YamlNode read_yaml_file(const std::string& path, InputProblems& problems, const 
 
 namespace {
 
-void mark_all(YamlNode& node, const SourcePlace& place) {
-  node.place = place;
-  for (YamlNode& item : node.items) mark_all(item, place);
+void mark_all(YamlNode& node, const SourceLocation& location) {
+  node.location = location;
+  for (YamlNode& item : node.items) mark_all(item, location);
   for (YamlEntry& entry : node.entries) {
-    entry.key_place = place;
-    mark_all(entry.value, place);
+    entry.key_location = location;
+    mark_all(entry.value, location);
   }
 }
 
@@ -271,9 +271,9 @@ std::optional<std::vector<PathStep>> split_path(std::string_view path) {
   }
 }
 
-/// Follows one step of a setting's path, making the keys that are not there; why it cannot, empty when it
-/// can.
-std::string step_into(YamlNode*& node, const PathStep& step, const SourcePlace& place) {
+/// Follows one step of a setting's path, adding missing keys. Returns the reason when it cannot, else an
+/// empty text.
+std::string step_into(YamlNode*& node, const PathStep& step, const SourceLocation& location) {
   if (step.index) {
     if (node->kind != YamlKind::list || *step.index >= node->items.size())
       return "there is no entry [" + std::to_string(*step.index) + "]; the list has " +
@@ -283,16 +283,16 @@ std::string step_into(YamlNode*& node, const PathStep& step, const SourcePlace& 
   }
   if (node->kind == YamlKind::nothing) {
     node->kind = YamlKind::map;
-    node->place = place;
+    node->location = location;
   }
   if (node->kind != YamlKind::map) return shown(*node) + " has no key " + step.key;
   if (node->find(step.key) == nullptr)
-    node->entries.push_back({step.key, place, YamlNode{YamlKind::nothing, place, {}, {}, {}, {}}});
+    node->entries.push_back({step.key, location, YamlNode{YamlKind::nothing, location, {}, {}, {}, {}}});
   node = node->find(step.key);
   return "";
 }
 
-/// Maps are merged key by key, anything else replaces what was there.
+/// Maps are merged key by key, any other value replaces the old one.
 void merge_over(YamlNode& target, YamlNode value) {
   if (target.kind != YamlKind::map || value.kind != YamlKind::map) {
     target = std::move(value);
@@ -310,29 +310,29 @@ void merge_over(YamlNode& target, YamlNode value) {
 
 void apply_setting(YamlNode& root, const std::string& assignment, const std::string& source,
                    InputProblems& problems) {
-  const SourcePlace place{source, 0, 0};
+  const SourceLocation location{source, 0, 0};
   const std::size_t equals = assignment.find('=');
   const std::optional<std::vector<PathStep>> steps =
       equals == std::string::npos ? std::nullopt : split_path(std::string_view{assignment}.substr(0, equals));
   if (!steps) {
-    problems.add(place, "'" + assignment + "' must read key=value or group.key=value");
+    problems.add(location, "'" + assignment + "' must read key=value or group.key=value");
     return;
   }
   const std::string path = assignment.substr(0, equals);
   if (assignment.find_first_not_of(" \t\n", equals + 1) == std::string::npos) {
-    problems.add(place, path + " needs a value");
+    problems.add(location, path + " needs a value");
     return;
   }
   InputProblems of_value;
   YamlNode value = parse_yaml(assignment.substr(equals + 1), source, of_value);
-  for (const InputProblem& problem : of_value.kept()) problems.add(place, path + ": " + problem.sentence);
+  for (const InputProblem& problem : of_value.kept()) problems.add(location, path + ": " + problem.sentence);
   if (!of_value.empty()) return;
-  mark_all(value, place);
+  mark_all(value, location);
 
   YamlNode* node = &root;
   for (const PathStep& step : *steps) {
-    const std::string obstacle = step_into(node, step, place);
-    if (!obstacle.empty()) return problems.add(place, path + ": " + obstacle);
+    const std::string obstacle = step_into(node, step, location);
+    if (!obstacle.empty()) return problems.add(location, path + ": " + obstacle);
   }
   merge_over(*node, std::move(value));
 }

@@ -1,6 +1,6 @@
-// A YAML document as a tree in which every value knows where it stands. A plain subset of YAML is read: maps,
-// lists, scalars. Duplicate keys, anchors, aliases, tags and more than one document are refused, as is
-// anything huge.
+// A YAML document as a tree whose values have their location. A plain subset of YAML is read: maps, lists,
+// scalars. Duplicate keys, anchors, aliases, tags and more than one document are refused, as is anything
+// huge.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct YamlEntry;
 
 struct YamlNode {
   YamlKind kind = YamlKind::nothing;
-  SourcePlace place;
+  SourceLocation location;
   std::string text;                ///< of a scalar
   bool quoted = false;             ///< a scalar in quotation marks is text, never a number
   std::vector<YamlNode> items;     ///< of a list
@@ -30,7 +30,7 @@ struct YamlNode {
 
 struct YamlEntry {
   std::string key;
-  SourcePlace key_place;
+  SourceLocation key_location;
   YamlNode value;
 };
 
@@ -41,9 +41,8 @@ struct YamlLimits {
   std::size_t depth = 32;
 };
 
-/// Reads a document. What is wrong is added to `problems`; what was understood is returned, so that a reader
-/// can report its own findings in the same go. A document that cannot be parsed gives a node of kind
-/// `nothing`.
+/// Reads a document. Errors are added to `problems`; the rest is returned, so that a reader can report
+/// further problems in the same run. A document that cannot be parsed gives a node of kind `nothing`.
 [[nodiscard]] YamlNode parse_yaml(std::string_view text, const std::string& source, InputProblems& problems,
                                   const YamlLimits& limits = {});
 
@@ -53,7 +52,7 @@ struct YamlLimits {
                                       const YamlLimits& limits = {});
 
 /// Writes `value`, one `key.path=value` of the command line, over `root`. A path may name list entries that
-/// exist, as in robots[2].goal. Problems carry `source` ("--set") as their place.
+/// exist, as in robots[2].goal. Problems have `source` ("--set") as their location.
 void apply_setting(YamlNode& root, const std::string& assignment, const std::string& source,
                    InputProblems& problems);
 

@@ -1,5 +1,5 @@
-// Writes any parameter struct as YAML that the reader of yaml_reader.hpp reads back to the same values; on
-// request with every key explained in a comment.
+// Writes any parameter struct as YAML that the reader of yaml_reader.hpp reads back to the same values;
+// optionally with every key explained in a comment.
 #pragma once
 
 #include <Eigen/Core>

@@ -28,14 +28,14 @@ std::string hash_text(const std::string& text) {
   return hexadecimal(hash);
 }
 
-// Limits of what one file may ask for: far above any sensible campaign.
-constexpr std::size_t kMostCombinations = 100'000;  // of the lists, before conditions choose their methods
+// Limits of what one file may ask for: far beyond any sensible campaign.
+constexpr std::size_t kMostCombinations = 100'000;  // of the lists, before conditions select their methods
 constexpr std::size_t kMostFailed = 100;            // cells that cannot run
 
-/// Where the scenes of a cell come from, and what they are called.
+/// Source and name of the scenes of a cell.
 struct SceneSource {
   std::string name;
-  std::string file;  ///< empty: a family, by its name
+  std::string file;  ///< empty: a family, given by its name
 };
 
 /// A method or variant that runs.
@@ -46,7 +46,7 @@ struct MethodEntry {
   std::size_t index = 0;  ///< in its list
 };
 
-/// Makes the cells of a campaign, and says what is wrong with it by the places in its file.
+/// Makes the cells of a campaign; reports problems by their location in its file.
 class CellMaker {
  public:
   CellMaker(const YamlNode& root, const Campaign& campaign, const std::filesystem::path& folder,
@@ -71,10 +71,10 @@ class CellMaker {
       const Choice choice = choice_at(i, scenes, entries);
       if (runs(choice)) add(choice);
     }
-    if (cells_.empty() && problems_.empty()) problems_.add(root_.place, "leaves no cell to run");
+    if (cells_.empty() && problems_.empty()) problems_.add(root_.location, "leaves no cell to run");
     if (asked_ > kMostCells)
-      problems_.add(root_.place, "asks for " + std::to_string(asked_) + " cells: must be at most " +
-                                     std::to_string(kMostCells) + " (" + kAxes + ")");
+      problems_.add(root_.location, "asks for " + std::to_string(asked_) + " cells: must be at most " +
+                                        std::to_string(kMostCells) + " (" + kAxes + ")");
     refuse_duplicates();
     check_trials();
     return std::move(cells_);
@@ -93,7 +93,7 @@ class CellMaker {
 
   static constexpr std::array kTracking{sim::TrackingMode::full, sim::TrackingMode::ideal};
 
-  /// How many values an axis has; one that names none counts as one.
+  /// Number of values of an axis; an axis without values counts as one.
   template <class Axis>
   static std::size_t size_of(const Axis& axis) {
     return std::max<std::size_t>(axis.size(), 1);
@@ -101,7 +101,7 @@ class CellMaker {
 
   static constexpr const char* kAxes = "conditions x scenes x noise x levels x tracking x methods";
 
-  /// Before anything is made of the lists: how much work they may ask for.
+  /// Limits the work that the lists ask for, before any of it is done.
   void check_sizes() {
     constexpr std::size_t kMostSettings = 100;  // of one list
     double combinations = 2.0;
@@ -111,8 +111,8 @@ class CellMaker {
           campaign_.methods.size() + campaign_.variants.size()})
       combinations *= static_cast<double>(std::max<std::size_t>(size, 1));
     if (combinations > static_cast<double>(kMostCombinations))
-      problems_.add(root_.place, "has " + fixed(combinations, 0) + " combinations: must be at most " +
-                                     std::to_string(kMostCombinations) + " (" + kAxes + ")");
+      problems_.add(root_.location, "has " + fixed(combinations, 0) + " combinations: must be at most " +
+                                        std::to_string(kMostCombinations) + " (" + kAxes + ")");
     const auto check_set = [&](const std::string& path, const std::vector<std::string>& list) {
       if (list.size() > kMostSettings)
         refuse(path, "has " + std::to_string(list.size()) + " settings: must be at most " +
@@ -133,7 +133,7 @@ class CellMaker {
                            " cells: must be at most " + std::to_string(kMostTrials) + " in all");
   }
 
-  /// Entry `index` of the product of all axes, of which the last runs fastest.
+  /// Entry `index` of the product of all axes, of which the last varies fastest.
   [[nodiscard]] Choice choice_at(std::size_t index, const std::vector<SceneSource>& scenes,
                                  const std::vector<MethodEntry>& entries) const {
     const auto digit = [&index](std::size_t size) { return std::exchange(index, index / size) % size; };
@@ -148,12 +148,12 @@ class CellMaker {
     return choice;
   }
 
-  [[nodiscard]] std::string place_of(const std::string& path) const {
-    return to_string(nearest_node(root_, path).place);
+  [[nodiscard]] std::string location_of(const std::string& path) const {
+    return to_string(nearest_node(root_, path).location);
   }
   void refuse(const std::string& path, const std::string& sentence) {
     const YamlNode& node = nearest_node(root_, path);
-    problems_.add(node.place,
+    problems_.add(node.location,
                   path + (node.kind == YamlKind::scalar ? " = " + shown(node) : "") + " " + sentence);
   }
 
@@ -162,7 +162,7 @@ class CellMaker {
     for (const sim::Family family : campaign_.families) scenes.push_back({enum_name(family), ""});
     for (const std::string& file : campaign_.scenarios)
       scenes.push_back({std::filesystem::path{file}.stem().string(), (folder_ / file).string()});
-    if (scenes.empty()) problems_.add(root_.place, "names no scene: give families or scenarios");
+    if (scenes.empty()) problems_.add(root_.location, "names no scene: give families or scenarios");
     return scenes;
   }
 
@@ -235,21 +235,22 @@ class CellMaker {
     return std::find(modes->begin(), modes->end(), choice.tracking) != modes->end();
   }
 
-  /// In the order in which they count: the axes, the campaign's own, variant, condition, command line.
+  /// In ascending precedence: the axes, the campaign's own, variant, condition, command line.
   [[nodiscard]] std::vector<Setting> settings_of(const Choice& choice) const {
     std::vector<Setting> all;
-    if (root_.find("seed") != nullptr) all.push_back({"seed=" + to_text(campaign_.seed), place_of("seed")});
-    if (choice.entry->method) all.push_back({"method=" + *choice.entry->method, place_of("methods")});
+    if (root_.find("seed") != nullptr)
+      all.push_back({"seed=" + to_text(campaign_.seed), location_of("seed")});
+    if (choice.entry->method) all.push_back({"method=" + *choice.entry->method, location_of("methods")});
     if (choice.noise)
-      all.push_back({std::string{"noise.model="} + enum_name(*choice.noise), place_of("noise")});
-    if (choice.level) all.push_back({"noise.level=" + to_text(*choice.level), place_of("levels")});
+      all.push_back({std::string{"noise.model="} + enum_name(*choice.noise), location_of("noise")});
+    if (choice.level) all.push_back({"noise.level=" + to_text(*choice.level), location_of("levels")});
     const bool named = !campaign_.tracking.empty() ||
                        (choice.entry->variant != nullptr && !choice.entry->variant->tracking.empty());
     if (named)
-      all.push_back({std::string{"trial.tracking="} + enum_name(choice.tracking), place_of("tracking")});
+      all.push_back({std::string{"trial.tracking="} + enum_name(choice.tracking), location_of("tracking")});
     const auto add_list = [&](const std::vector<std::string>& list, const std::string& path) {
       for (std::size_t i = 0; i < list.size(); ++i)
-        all.push_back({list[i], place_of(path + "[" + std::to_string(i) + "]")});
+        all.push_back({list[i], location_of(path + "[" + std::to_string(i) + "]")});
     };
     add_list(campaign_.set, "set");
     if (choice.entry->variant != nullptr)
@@ -272,15 +273,15 @@ class CellMaker {
       if (!choice.entry->name.empty()) cell.key.method = choice.entry->name;
       if (choice.condition != nullptr) cell.key.condition = choice.condition->name;
       const std::string problem = trials_problem(cell.config, campaign_.first, campaign_.trials);
-      if (!problem.empty() && told_.insert(problem).second) refuse("trials", problem);
+      if (!problem.empty() && reported_.insert(problem).second) refuse("trials", problem);
       cells_.push_back(std::move(cell));
     } catch (const InputError& error) {
       if (++failed_ == kMostFailed)
-        problems_.add(root_.place,
+        problems_.add(root_.location,
                       std::to_string(failed_) + " cells cannot run; further ones were not looked at");
       for (const InputProblem& problem : error.problems().kept())
-        if (told_.insert(to_string(problem.place) + problem.sentence).second)
-          problems_.add(problem.place, problem.sentence);
+        if (reported_.insert(to_string(problem.location) + problem.sentence).second)
+          problems_.add(problem.location, problem.sentence);
     }
   }
 
@@ -288,7 +289,7 @@ class CellMaker {
     std::set<std::string> names;
     for (const Cell& cell : cells_)
       if (!names.insert(cell_file_name(cell.key)).second)
-        return problems_.add(root_.place, "lists this cell twice: " + cell_text(cell.key));
+        return problems_.add(root_.location, "lists this cell twice: " + cell_text(cell.key));
   }
 
   const YamlNode& root_;
@@ -298,9 +299,9 @@ class CellMaker {
   const MethodTable& known_;
   InputProblems& problems_;
   std::vector<Cell> cells_;
-  std::size_t asked_ = 0;   // cells that the file names
+  std::size_t asked_ = 0;   // cells that the file asks for
   std::size_t failed_ = 0;  // of them
-  std::set<std::string> told_;
+  std::set<std::string> reported_;
 };
 
 CampaignPlan read_document(YamlNode root, const std::filesystem::path& folder,
@@ -375,7 +376,7 @@ std::string cell_file_name(const TrialKey& key) {
                      key.tracking + (key.condition.empty() ? "" : "_" + key.condition);
   std::string safe;
   for (const char c : name) safe += is_plain(c) ? c : '-';
-  // Two names may differ in what a file name cannot show.
+  // Two names may differ in characters that a file name cannot contain.
   if (safe != name) safe += "_" + hash_text(name).substr(0, 4);
   return safe + ".yaml";
 }

@@ -1,5 +1,5 @@
-// Campaign files: which methods run on which scenes, under which noise and tracking, how often. Reading one
-// gives the cells of its table, each a configuration of its own; every cell runs the same trials.
+// Campaign files: which methods run on which scenes, with which noise and tracking, and how often. Reading
+// one gives the cells of its table, each with its own configuration; every cell runs the same trials.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 
 namespace spf {
 
-/// What a report shows of a campaign beside its rows.
+/// What a report shows of a campaign besides its rows.
 enum class CampaignFigure {
-  table2,   ///< as the paper's Table 2, its figures beside
+  table2,   ///< as the paper's Table 2, with its figures beside
   table3,   ///< likewise Table 3
-  runtime,  ///< time of each part (Fig. 6)
+  runtime,  ///< computing time of each part (Fig. 6)
   scenes,   ///< still frames of the first trial at chosen times (Fig. 7, 8)
   wheels,   ///< wheel speeds of the first trial and their limit (Fig. 9)
 };
@@ -33,12 +33,12 @@ struct EnumNames<CampaignFigure> {
        {CampaignFigure::wheels, "wheels"}}};
 };
 
-/// A method with settings of its own, under a name of its own.
+/// A method with additional settings, under its own name.
 struct MethodVariant {
   std::string name;
   std::string method;
   std::vector<std::string> set;             ///< key=value
-  std::vector<sim::TrackingMode> tracking;  ///< instead of the campaign's; empty: as the campaign
+  std::vector<sim::TrackingMode> tracking;  ///< instead of the campaign's; empty: the campaign's
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -51,7 +51,7 @@ struct MethodVariant {
   }
 };
 
-/// Further settings of the scene; every condition is a part of the table.
+/// Further settings of the scene; every condition gives a part of the table.
 struct Condition {
   std::string name;
   std::vector<std::string> set;      ///< key=value
@@ -67,7 +67,7 @@ struct Condition {
 };
 
 struct Campaign {
-  std::string name;   ///< parts of the same name are merged by reports
+  std::string name;   ///< reports merge parts of the same name
   std::string title;  ///< one line
   std::vector<sim::Family> families;
   std::vector<std::string> scenarios;  ///< files, relative to the campaign's
@@ -107,14 +107,14 @@ struct Campaign {
   }
 };
 
-/// One row of the table to be: a configuration under the name of its row.
+/// One row of the resulting table: a configuration under the name of its row.
 struct Cell {
-  TrialKey key;  ///< of its trials; `method` is the variant's name where it is one
+  TrialKey key;  ///< of its trials; `method` is the variant's name for a variant
   RunConfiguration config;
   std::string setup;  ///< hash of the configuration: equal for equal trials
 };
 
-/// A campaign has at most so many cells, and so many trials in all of them.
+/// Largest number of cells of a campaign, and of trials in all of them.
 inline constexpr std::size_t kMostCells = 2'000;
 inline constexpr int kMostTrials = 1'000'000;
 
@@ -134,26 +134,26 @@ struct CampaignPlan {
 [[nodiscard]] CampaignPlan read_campaign(const std::string& path, const std::vector<Setting>& settings = {},
                                          const std::vector<Setting>& scene_settings = {},
                                          const MethodTable& known = {});
-/// The same from text; `name` stands for the file in messages, `folder` is where its scenarios lie.
+/// The same from text; `name` stands for the file in messages, `folder` contains its scenarios.
 [[nodiscard]] CampaignPlan campaign_from_text(const std::string& text, const std::string& name,
                                               const std::filesystem::path& folder,
                                               const std::vector<Setting>& settings = {},
                                               const std::vector<Setting>& scene_settings = {},
                                               const MethodTable& known = {});
 
-/// The campaign alone, of a file whose scenarios are not looked at. Throws InputError.
+/// The campaign alone, without reading the scenarios of the file. Throws InputError.
 [[nodiscard]] Campaign read_campaign_header(const std::string& path);
 /// The file that gives this campaign.
 [[nodiscard]] std::string to_yaml_text(const Campaign& campaign);
 
-/// Campaigns that the program brings with it: name and text.
+/// Campaigns that are built into the program: name and text.
 struct CampaignPreset {
   std::string_view name, text;
 };
 [[nodiscard]] const std::vector<CampaignPreset>& campaign_presets();
 
-/// Name of the file of a cell's scenario: letters, digits, dots, dashes and underscores; other than any other
-/// cell's of a campaign.
+/// Name of the file of a cell's scenario: letters, digits, dots, dashes and underscores; unique among the
+/// cells of a campaign.
 [[nodiscard]] std::string cell_file_name(const TrialKey& key);
 
 /// Names of one cell of a table, without seed and trial.

@@ -90,29 +90,29 @@ class Merger {
   std::vector<TrialRecord> merged_;
 };
 
-/// Place of a value in a list; behind all of it when it is not there.
+/// Index of a value in a list; the list's size when it is not contained.
 template <class List, class Name>
-std::size_t place_in(const List& list, const std::string& value, Name name) {
+std::size_t index_in(const List& list, const std::string& value, Name name) {
   std::size_t i = 0;
   while (i < list.size() && name(list[i]) != value) ++i;
   return i;
 }
 
-/// Where a cell stands in its campaign's table; parts may hold its cells in any order.
+/// Sort key of a cell in its campaign's table; parts may contain the cells in any order.
 std::array<std::size_t, 6> rank_of(const Campaign& campaign, const TrialKey& key) {
   const auto enumerator = [](auto value) { return std::string{enum_name(value)}; };
   const auto named = [](const auto& entry) { return entry.name; };
-  std::size_t method = place_in(campaign.methods, key.method, [](const std::string& name) { return name; });
-  if (method == campaign.methods.size()) method += place_in(campaign.variants, key.method, named);
-  std::size_t scene = place_in(campaign.families, key.family, enumerator);
+  std::size_t method = index_in(campaign.methods, key.method, [](const std::string& name) { return name; });
+  if (method == campaign.methods.size()) method += index_in(campaign.variants, key.method, named);
+  std::size_t scene = index_in(campaign.families, key.family, enumerator);
   if (scene == campaign.families.size())
-    scene += place_in(campaign.scenarios, key.family,
+    scene += index_in(campaign.scenarios, key.family,
                       [](const std::string& file) { return fs::path{file}.stem().string(); });
   const std::size_t level = static_cast<std::size_t>(
       std::find(campaign.levels.begin(), campaign.levels.end(), key.level) - campaign.levels.begin());
-  return {place_in(campaign.conditions, key.condition, named),
+  return {index_in(campaign.conditions, key.condition, named),
           scene,
-          place_in(campaign.noise, key.noise, enumerator),
+          index_in(campaign.noise, key.noise, enumerator),
           level,
           key.tracking == "full" ? 0U : 1U,
           method};

@@ -1,4 +1,4 @@
-// The folders that `spf experiment` and `spf run` have left, read back; parts of one campaign are merged.
+// Reads the folders that `spf experiment` and `spf run` have written; parts of one campaign are merged.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace spf {
 
-/// A picture that lies in a folder of results.
+/// A picture in a folder of results.
 struct StoredPicture {
   std::string name;  ///< of its file
   std::string svg;
@@ -25,9 +25,9 @@ struct CampaignParts {
   std::vector<std::string> run_files;            ///< texts of run.json
 };
 
-/// One entry for each campaign name, in the order of the folders. Throws InputError when a folder holds no
-/// trials, when parts do not belong together (a cell has other settings in another folder), or when they tell
-/// the same trial differently.
+/// One entry for each campaign name, in the order of the folders. Throws InputError when a folder contains no
+/// trials, when parts do not belong together (a cell has other settings in another folder), or when they
+/// contradict each other about the same trial.
 [[nodiscard]] std::vector<CampaignParts> read_parts(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace spf

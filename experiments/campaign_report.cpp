@@ -25,30 +25,23 @@ std::string paragraph(const std::string& words) {
 
 constexpr const char* kReading =
     "Success (SR): every robot arrived without any contact. OR: not home in time. CR: a contact. In brackets "
-    "the Wilson "
-    "95 % interval. Distances, paths and times are mean | minimum | standard deviation over successful "
-    "trials (paths "
-    "and times over their robots); optimiser calls per robot, over all trials. Time ratio: over the "
-    "obstacle-free "
-    "rest-to-rest optimum; read a success rate only together with it, caution buys success.";
+    "the Wilson 95 % interval. Distances, paths and times are mean | minimum | standard deviation over "
+    "successful trials (paths and times over their robots); optimiser calls per robot, over all trials. Time "
+    "ratio: over the obstacle-free rest-to-rest optimum; read a success rate only together with it, caution "
+    "buys success.";
 constexpr const char* kPaperDoubts =
     "The paper's figures are its own generator's, with speeds and sizes that it does not state; ratios "
-    "compare, seconds "
-    "do not. Two of its cells cannot be right: the distances shared by ES2 and ES2* at 2 Sigma, and the "
-    "standard "
-    "deviation 3.41 of ES2* at 1 Sigma.";
+    "compare, seconds do not. Two of its cells cannot be right: the distances shared by ES2 and ES2* at 2 "
+    "Sigma, and the standard deviation 3.41 of ES2* at 1 Sigma.";
 constexpr const char* kCrossingReading =
-    "A crossing is one robot's way through the place; it is ok when the robot arrives within the allowed "
-    "multiple of its obstacle-free time and touches nobody and nothing. Recorded people do not react: "
-    "whoever "
-    "walks into a robot that has stood still for a second is counted apart. Windows of one recording "
-    "overlap, "
-    "so the trials are not independent and the intervals are too narrow.";
+    "A crossing is one robot's passage through the scene; it is ok when the robot arrives within the allowed "
+    "multiple of its obstacle-free time without a contact. Recorded people do not react: a contact with one "
+    "who walks into a robot that has stood still for a second is counted apart. Windows of one recording "
+    "overlap, so the trials are not independent and the intervals are too narrow.";
 constexpr const char* kPairedReading =
     "Two methods on the same trials: scenes, obstacles' motion and sensor noise are equal. p: McNemar's "
-    "exact test, "
-    "two-sided, of the trials in which only one succeeded; bold below 0.05, not corrected for the number of "
-    "comparisons.";
+    "exact test, two-sided, of the trials in which only one succeeded; bold below 0.05, not corrected for "
+    "the number of comparisons.";
 
 std::string charts_html(const std::vector<std::string>& charts) {
   std::string html;
@@ -141,7 +134,7 @@ std::string replays_text(const CampaignParts& parts, const ReplayLinks& replays)
   std::string text = std::to_string(replays.size()) + " of " + std::to_string(failed) +
                      " failed trials have their replay here";
   if (replays.size() < failed) text += "; spf report --replays all adds the others";
-  return text + ". The command beside a trial makes its replay anew, too.";
+  return text + ". The command beside a trial also makes its replay.";
 }
 
 std::string failures_section(const CampaignParts& parts, const ReplayLinks& replays) {
@@ -149,8 +142,7 @@ std::string failures_section(const CampaignParts& parts, const ReplayLinks& repl
   html += paragraph(replays_text(parts, replays));
   html += paragraph(
       "Standing: slower than 0.05 m/s at the contact. Last plan: the outcome of the robot's last planning "
-      "call before "
-      "it. Every failed trial, by row of the table:");
+      "call before it. Every failed trial, by row of the table:");
   for (std::size_t i = 0; i < parts.cells.size(); ++i) {
     const PageTable table = failed_trials(parts, i, replays);
     if (table.rows.empty()) continue;

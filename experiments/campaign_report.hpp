@@ -1,5 +1,5 @@
-// A campaign's report: the tables as the paper prints them with its figures beside ours, paired comparisons,
-// charts, and why trials failed. As sections of an HTML page and as Markdown.
+// A campaign's report: tables in the paper's form with its figures beside ours, paired comparisons, charts,
+// and causes of failure. As sections of an HTML page and as Markdown.
 #pragma once
 
 #include <map>
@@ -12,13 +12,13 @@
 
 namespace spf {
 
-/// Pages of trials that were run again: (index of the cell, trial) -> address beside the report.
+/// Replay pages of trials: (index of the cell, trial) -> address relative to the report.
 using ReplayLinks = std::map<std::pair<std::size_t, int>, std::string>;
 
 [[nodiscard]] std::vector<PageSection> report_sections(const CampaignParts& parts,
                                                        const ReplayLinks& replays);
 
-/// The charts of the report as files of their own; the names end in .svg.
+/// The charts of the report as separate files; the names end in .svg.
 [[nodiscard]] std::vector<StoredPicture> report_pictures(const CampaignParts& parts);
 
 /// The tables of the report as Markdown.

@@ -21,9 +21,9 @@ std::vector<CellTrials> by_cell(std::vector<TrialRecord> records) {
   for (TrialRecord& record : records) {
     const TrialKey& key = record.key;
     const Name name{key.family, key.method, key.noise, key.level, key.tracking, key.condition, key.seed};
-    const auto [place, is_new] = index.emplace(name, cells.size());
+    const auto [entry, is_new] = index.emplace(name, cells.size());
     if (is_new) cells.emplace_back();
-    cells[place->second].push_back(std::move(record));
+    cells[entry->second].push_back(std::move(record));
   }
   for (CellTrials& cell : cells)
     std::stable_sort(cell.begin(), cell.end(),

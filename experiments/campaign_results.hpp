@@ -1,5 +1,5 @@
-// The trials of a campaign condensed: one row for each cell, and every two methods compared on the same
-// trials.
+// The trials of a campaign condensed: one row for each cell, and a comparison of every two methods on the
+// same trials.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@ namespace spf {
 /// The trials of one cell and seed, in the order of their numbers.
 using CellTrials = std::vector<TrialRecord>;
 
-/// Groups records by cell and seed; cells come in the order in which they are first met.
+/// Groups records by cell and seed; cells are in the order of their first trial.
 [[nodiscard]] std::vector<CellTrials> by_cell(std::vector<TrialRecord> records);
 
 [[nodiscard]] std::vector<ResultRow> rows_of(const std::vector<CellTrials>& cells);
 
-/// Of every two cells that differ in their method alone, in the order of the cells; those without a common
-/// trial are left out.
+/// Compares every two cells that differ in their method alone, in the order of the cells; pairs without a
+/// common trial are left out.
 [[nodiscard]] std::vector<PairedRow> pairs_of(const std::vector<CellTrials>& cells);
 
 }  // namespace spf

@@ -13,7 +13,7 @@
 namespace spf {
 namespace {
 
-/// The record of a trial; none when it was told to stop.
+/// The record of a trial; none when it was stopped.
 std::optional<TrialRecord> record_of(const Cell& cell, int trial, int threads,
                                      const CampaignRequest& request) {
   if (request.stop && request.stop()) return std::nullopt;
@@ -38,8 +38,8 @@ std::optional<TrialRecord> record_of(const Cell& cell, int trial, int threads,
 std::vector<CampaignTrial> trials_of(const CampaignPlan& plan, Shard shard) {
   std::vector<CampaignTrial> trials;
   const auto cells = static_cast<std::int64_t>(plan.cells.size());
-  // Few shards: every cell in turn over all of them. More shards than trials: one after the other, so that
-  // all are equally long.
+  // Few shards: every cell is dealt out over all of them. More shards than trials: trials are dealt out one
+  // by one, so that all shards are equally long.
   const bool few = shard.count <= plan.campaign.trials;
   for (std::int64_t k = 0; k < plan.campaign.trials; ++k)
     for (std::int64_t cell = 0; cell < cells; ++cell)

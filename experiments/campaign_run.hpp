@@ -1,5 +1,5 @@
-// Runs the trials of a campaign, all cells from one pool of threads, so that the last threads never wait for
-// one slow cell; what to run, and which part of it, is a list.
+// Runs a list of trials of a campaign, all cells on one pool of threads, so that no thread waits for one slow
+// cell.
 #pragma once
 
 #include <functional>
@@ -21,22 +21,22 @@ struct CampaignTrial {
   int trial = 0;
 };
 
-/// The trials of a shard, trial by trial and within each cell by cell: an early stop leaves all cells equally
-/// far. Every trial is in exactly one of the `count` shards, and every cell is spread evenly over
-/// them where there are enough trials.
+/// The trials of a shard, trial by trial and within each cell by cell, so that an early stop leaves all cells
+/// with equally many trials. Every trial is in exactly one of the `count` shards, and every cell is spread
+/// evenly over them if there are enough trials.
 [[nodiscard]] std::vector<CampaignTrial> trials_of(const CampaignPlan& plan, Shard shard = {});
 
 struct CampaignRequest {
   std::vector<CampaignTrial> trials;
   int jobs = 1;                   ///< threads
   std::function<double()> clock;  ///< [s] steady, callable from any thread; none: nothing is timed
-  std::function<bool()> stop;     ///< asked often, on any thread; true drops the trials under way
-  /// Called after each trial, by one thread at a time, in the order in which they end. What it throws ends
-  /// the run and is thrown again by run_campaign.
+  std::function<bool()> stop;     ///< polled often, on any thread; true aborts the running trials
+  /// Called after each trial, by one thread at a time, in the order in which they end. An exception ends the
+  /// run and is rethrown by run_campaign.
   std::function<void(TrialRecord)> finished;
 };
 
-/// Runs the trials. The records are the same for any number of threads, timings aside. Throws
+/// Runs the trials. Apart from timings, the records are the same for any number of threads. Throws
 /// std::runtime_error, naming cell and trial, when a trial cannot be run.
 void run_campaign(const CampaignPlan& plan, const CampaignRequest& request);
 

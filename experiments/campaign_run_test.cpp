@@ -17,7 +17,7 @@
 namespace spf {
 namespace {
 
-/// Two robots and a walking disc in a small place; everything random is switched on.
+/// Two robots and a moving disc in a small area; everything random is switched on.
 RunConfiguration small_configuration(const std::vector<Setting>& settings = {}) {
   return run_configuration_from_text(
       "family: explicit\n"

@@ -65,11 +65,11 @@ TEST(Campaign, VariantsAndConditionsSetWhatTheySay) {
 TEST(Campaign, ObserversKnowTheNoiseUnlessTold) {
   const CampaignPlan plan = plan_of(
       "set: [pose_noise.position_sigma=0.5, pose_noise.heading_sigma=0.01]\n"
-      "conditions: [{name: told}, {name: misinformed, set: [agent.tracker.observer.pose_sigma=0.1]}]\n");
+      "conditions: [{name: informed}, {name: misinformed, set: [agent.tracker.observer.pose_sigma=0.1]}]\n");
   ASSERT_EQ(plan.cells.size(), 2u);
-  const ObserverParameters told = agent_parameters(plan.cells[0].config).tracker.observer;
-  EXPECT_EQ(told.pose_sigma, 0.5);
-  EXPECT_EQ(told.heading_sigma, 0.01);
+  const ObserverParameters informed = agent_parameters(plan.cells[0].config).tracker.observer;
+  EXPECT_EQ(informed.pose_sigma, 0.5);
+  EXPECT_EQ(informed.heading_sigma, 0.01);
   EXPECT_EQ(agent_parameters(plan.cells[1].config).tracker.observer.pose_sigma, 0.1);
 }
 

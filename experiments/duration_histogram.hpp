@@ -1,5 +1,5 @@
-// Many durations in little room: counts in logarithmic buckets, 2 % wide, so that percentiles over any number
-// of trials (and over merged shards) are known to 1 %. The smallest and the largest value are kept exactly.
+// A compact store of many durations: counts in logarithmic buckets, 2 % wide, so that percentiles over any
+// number of trials (and over merged shards) are known to 1 %. The smallest and the largest value are exact.
 #pragma once
 
 #include <cstdint>

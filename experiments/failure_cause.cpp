@@ -5,7 +5,7 @@
 namespace spf {
 namespace {
 
-constexpr double kStanding = 0.05;  // [m/s] slower stands (docs/protocol.md)
+constexpr double kStanding = 0.05;  // [m/s] slower counts as standing (docs/protocol.md)
 
 }  // namespace
 

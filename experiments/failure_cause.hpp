@@ -1,4 +1,4 @@
-// Why a trial failed, in words: what the robot was about.
+// The cause of a trial's failure in words: what the robot was doing.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace spf {
 /// "its last plan: unsafe, 0.4 s before; it stood: obstacle ahead 2"
 [[nodiscard]] std::string to_text(const CauseRecord& cause);
 
-/// One of few kinds of failure, for counting: "touched a disc, moving, last plan unsafe".
+/// A coarse kind of failure, for counting: "touched a disc, moving, last plan unsafe".
 [[nodiscard]] std::string failure_kind(const TrialRecord& record);
 
 }  // namespace spf

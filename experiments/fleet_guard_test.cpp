@@ -15,16 +15,16 @@
 namespace spf {
 namespace {
 
-/// What a method has to keep on a family. The first trials all succeed, or so many do of all of them: a good
-/// method is let go early, a doubtful one is looked at for longer.
+/// What a method must achieve on a family: either all of the first trials succeed, or the required number of
+/// all of them. A good method is accepted early, a doubtful one is tested for longer.
 struct FleetGuard {
   const char* name;
   const char* scenario;
   std::vector<Setting> settings;
   double success;     ///< [1] known share, of trials; among people of crossings, one for each robot
-  int first;          ///< trials (or crossings) of the first look
-  int all;            ///< and of both looks
-  int least;          ///< of all that must succeed
+  int first;          ///< trials (or crossings) of the first stage
+  int all;            ///< and of both stages
+  int least;          ///< of both stages that must succeed
   double time_ratio;  ///< [1] bound of the mean travel time to the obstacle-free
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr SceneFamily kShownFamily{sim::Family::t2};
 
-/// "agent.tracker" of "agent.tracker.observer.kind": the heading under which a key stands.
+/// "agent.tracker" of "agent.tracker.observer.kind": the heading of a key's section.
 std::string section_of(const std::string& key) {
   const std::size_t first = key.find('.');
   if (first == std::string::npos || key.find("[]") != std::string::npos) return "";
@@ -30,8 +30,8 @@ Table table_of(const std::vector<ParameterRow>& rows) {
   return table;
 }
 
-/// What differs. With the same method, agents differ in what follows their robot alone: that goes without
-/// saying.
+/// The differences. With the same method, agents differ only in defaults that follow their robot; these are
+/// left out.
 std::string changes_text(const RunConfiguration& base, const RunConfiguration& changed) {
   const bool same_method = base.method == changed.method;
   std::string text;
@@ -100,23 +100,16 @@ std::vector<ParameterRow> differences(const RunConfiguration& base, const RunCon
 
 std::string parameter_page() {
   std::string page =
-      "# Parameters\n\nEvery key of a scenario file. Made by `spf parameters --markdown`; do not edit.\n\n"
-      "A key that is absent has its default. `--set key=value` sets any of them from the command line. Units "
-      "are SI, "
-      "angles in radians. `what` names the source where there is one: an equation or section of the paper, "
-      "the "
-      "experiment protocol (docs/protocol.md), or our choice.\n\n"
-      "Defaults are written down for the standard robot (radius r = 0.3 m, speed v = 1 m/s, acceleration a = "
-      "1 m/s^2). "
-      "Where the column `follows` names something, another robot's default is this one times: `size` r / 0.3 "
-      "m; "
-      "`way` "
-      "max(r, 0.3 v^2 / a) / 0.3 m; `speed` v / (1 m/s); `time` (v / a + r / v) / 1.3 s, the time to stop "
-      "and "
-      "to leave "
-      "one's place. `spf run` with `--out` writes the values used into `scenario.yaml`. A value that is set "
-      "counts as "
-      "it is written, whatever the robot.\n";
+      "# Parameters\n\nEvery key of a scenario file. Made by `spf parameters --markdown`; do not edit.\n\nA "
+      "key that is absent has its default. `--set key=value` sets any of them from the command line. Units "
+      "are SI, angles in radians. `what` names the source where there is one: an equation or section of the "
+      "paper, the experiment protocol (docs/protocol.md), or our choice.\n\nDefaults are written down for "
+      "the standard robot (radius r = 0.3 m, speed v = 1 m/s, acceleration a = 1 m/s^2). Where the column "
+      "`follows` names something, another robot's default is this one times: `size` r / 0.3 m; `distance` "
+      "max(r, "
+      "0.3 v^2 / a) / 0.3 m; `speed` v / (1 m/s); `time` (v / a + r / v) / 1.3 s, the time to stop and to "
+      "clear the robot's own footprint. `spf run` with `--out` writes the values used into `scenario.yaml`. "
+      "A value that is set counts as it is written, whatever the robot.\n";
   std::string section = "none yet";
   std::vector<ParameterRow> rows;
   const auto flush = [&] {

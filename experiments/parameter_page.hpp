@@ -1,4 +1,4 @@
-// docs/parameters.md: every key of a scenario file, and what methods and families change.
+// docs/parameters.md: every key of a scenario file, and the defaults that methods and families change.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace spf {
 
-/// Every key that a scenario file may have, with the defaults of family t2 and the default method; keys of
-/// explicit scenes are among them.
+/// Every key that a scenario file may have, keys of explicit scenes included, with the defaults of family t2
+/// and the default method.
 [[nodiscard]] std::vector<ParameterRow> all_parameters();
 
-/// Rows of `changed` whose value differs from that in `base`, or that `base` does not have.
+/// Rows of `changed` whose value differs from that in `base`, or that `base` lacks.
 [[nodiscard]] std::vector<ParameterRow> differences(const RunConfiguration& base,
                                                     const RunConfiguration& changed);
 

@@ -23,7 +23,7 @@ std::string panel_of(const TrialKey& key) {
          " tracking";
 }
 
-/// Counts by bins that are wide enough to be seen: 12 for each decade.
+/// Counts in bins that are wide enough to be visible: 12 a decade.
 void fill_histogram(const DurationHistogram& histogram, ChartRow& row) {
   constexpr double kBinsPerDecade = 12.0;
   std::map<int, double> bins;

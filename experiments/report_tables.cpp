@@ -36,7 +36,7 @@ std::string paper_triple(const PaperTriple& paper) {
          fixed(paper.deviation, 2);
 }
 
-/// Of the successful trials of a cell: per robot lengths and times, per trial the dynamic distance.
+/// Successful trials of a cell: path lengths and times per robot, dynamic distance per trial.
 struct Successes {
   std::vector<double> lengths, times, distances;
 
@@ -59,7 +59,7 @@ PageCell success_cell(const ResultRow& row, const std::string& paper, bool best)
   return cell;
 }
 
-/// Cells by what `name` calls them, in the order in which they are first met.
+/// Cells grouped by `name`, in the order of their first occurrence.
 using Group = std::vector<const CellTrials*>;
 std::vector<Group> grouped(const CampaignParts& parts,
                            const std::function<std::string(const TrialKey&)>& name) {

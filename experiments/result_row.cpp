@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What robots did in successful trials.
+/// Path lengths and times of robots in successful trials.
 struct Travel {
   std::vector<double> lengths, times, length_ratios, time_ratios;
 
@@ -68,7 +68,7 @@ void fill_successes(ResultRow& row, const std::vector<TrialRecord>& trials) {
   row.dynamic_clearance_min = minimum(clearances);
 }
 
-/// Never past what an int holds, whatever files may count.
+/// Saturates at the largest int, whatever numbers files contain.
 void add_up(int& sum, int more) {
   sum += std::min(more, std::numeric_limits<int>::max() - sum);
 }

@@ -1,5 +1,5 @@
 // One row of a result table: trials of one scene family, method, noise and tracking, condensed. The names of
-// its fields are a contract with scripts outside the repository; they change for nobody.
+// its fields are a contract with scripts outside the repository and do not change.
 #pragma once
 
 #include <cstdint>
@@ -32,11 +32,11 @@ struct ResultRow {
   double control_us_median = kNotKnown, control_us_p99 = kNotKnown;                     ///< [us]
   int arrived_robots = 0, robots = 0;                                                   ///< in all trials
   double sim_seconds = 0.0, wall_seconds = 0.0;                                         ///< [s] in all trials
-  // Of PED alone; a row without crossings does not write them. Over all trials.
-  int crossings = 0, crossings_ok = 0;  ///< ways of one robot through the place; in time, without contact
+  // Of PED alone, over all trials; a row without crossings does not write them.
+  int crossings = 0, crossings_ok = 0;  ///< passages of one robot; in time and without contact
   int contacts_moving = 0;              ///< contacts of robots that had not stood still for a second
-  int hits_while_standing = 0;          ///< by people, of robots that had; they do not react
-  double robot_minutes = 0.0;           ///< [min] that robots spent in the place
+  int hits_while_standing = 0;          ///< by people, who do not react, of robots that had
+  double robot_minutes = 0.0;           ///< [min] that robots spent in the scene
   std::string condition;                ///< of a campaign; a row without one does not write it
 
   /// The only list of these fields.

@@ -42,7 +42,7 @@ bool is_ours(const std::string& name) {
   return number.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Terminals, pipes and the like are written to, not replaced.
+/// Terminals, pipes and the like are written to, not replaced by a renamed file.
 bool is_stream(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);

@@ -1,5 +1,5 @@
-// The folder below --out. Files appear whole or not at all: each is written beside its place and renamed; a
-// growing file grows by whole lines.
+// The folder given by --out. Files appear complete or not at all: each is written under a temporary name and
+// renamed; a growing file grows by whole lines.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ class OutputError : public std::runtime_error {
 };
 
 /// Writes a file through a temporary one in the same folder, flushed to the disk, then renamed. Throws
-/// OutputError and leaves what was there before.
+/// OutputError and leaves an earlier file unchanged.
 void write_file_atomically(const std::filesystem::path& path, const std::string& text);
 
-/// The same, piece by piece: `next` gives the pieces of the text, and an empty one behind the last.
+/// The same, piece by piece: `next` gives the pieces of the text, and an empty one after the last.
 void write_file_atomically(const std::filesystem::path& path, const std::function<std::string()>& next);
 
 /// Text of a file; empty when there is none.
@@ -32,8 +32,8 @@ void require_writable(const std::filesystem::path& path);
 /// A file that grows line by line. A line that does not fit on the disk is taken back whole.
 class LineFile {
  public:
-  /// Goes on with a file, or begins it. Nobody else may be writing it this way: throws OutputError then, and
-  /// when it cannot be written.
+  /// Continues a file, or begins it. Throws OutputError when another process is writing it this way, or when
+  /// it cannot be written.
   explicit LineFile(const std::filesystem::path& path);
   ~LineFile();
   LineFile(const LineFile&) = delete;
@@ -57,7 +57,7 @@ class ResultsFolder {
   /// Makes the folder. Throws OutputError, also when it cannot be written into.
   explicit ResultsFolder(std::filesystem::path folder);
 
-  /// Removes what an earlier run has left beside trials.jsonl, by the names that this program gives; other
+  /// Removes the files of an earlier run except trials.jsonl, by the names that this program gives; other
   /// files stay. Throws OutputError.
   void remove_earlier_results() const;
 

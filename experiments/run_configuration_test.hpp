@@ -15,10 +15,10 @@ inline std::vector<TrialRecord> run_configuration(const RunConfiguration& config
   const CampaignPlan plan = single_cell(config, first, trials);
   TrialStore store{plan};
   request.trials = trials_of(plan);
-  const auto told = request.finished;
+  const auto previous = request.finished;
   request.finished = [&](TrialRecord record) {
     store.add(record);
-    if (told) told(std::move(record));
+    if (previous) previous(std::move(record));
   };
   run_campaign(plan, request);
   return store.finish();

@@ -28,7 +28,7 @@ LineEnd read_line(std::istream& file, std::string& line) {
   return LineEnd::file;
 }
 
-/// Notices whether a text that is not JSON breaks off rather than goes wrong.
+/// Detects whether a text that is not valid JSON is truncated rather than malformed.
 struct EndSeeker : nlohmann::json_sax<nlohmann::ordered_json> {
   bool null() override { return true; }
   bool boolean(bool) override { return true; }
@@ -49,8 +49,8 @@ struct EndSeeker : nlohmann::json_sax<nlohmann::ordered_json> {
   std::size_t stopped_at = 0;  // [bytes] read by then
 };
 
-/// Was this the beginning of a line of ours when writing was cut off? It begins as ours do, is JSON as far as
-/// it goes, and ends too early; a machine that went down may have left zeros instead of what was to come.
+/// Whether this is a line of ours that was cut off in writing: it begins as ours do, is valid JSON as far as
+/// it goes, and ends too early; after a power failure zeros may follow instead of the rest.
 bool cut_off(std::string_view line) {
   constexpr std::string_view kBegin = "{\"family\":\"";
   const std::size_t with_zeros = line.size();
@@ -105,7 +105,7 @@ TrialLog read_trial_log(std::istream& file, const std::string& name) {
       log.starts.push_back(std::exchange(log.good_bytes, log.good_bytes + line.size() + 1));
     } catch (const InputError& refused) {
       for (const InputProblem& problem : refused.problems().kept())
-        problems.add(problem.place, problem.sentence);
+        problems.add(problem.location, problem.sentence);
     }
   }
   problems.throw_if_any();

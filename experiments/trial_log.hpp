@@ -1,4 +1,4 @@
-// Reading trials.jsonl back: the trials that an interrupted run has left, or the parts of a campaign.
+// Reads trials.jsonl: the trials of an interrupted run, or the parts of a campaign.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace spf {
 struct TrialLog {
   std::vector<TrialRecord> records;    ///< in the order of the file
   std::vector<std::uintmax_t> starts;  ///< where the line of each record begins [byte]
-  std::uintmax_t good_bytes = 0;       ///< of whole lines; what follows was cut off in writing
-  bool torn = false;                   ///< there is something behind them
+  std::uintmax_t good_bytes = 0;       ///< of whole lines; the rest was cut off in writing
+  bool torn = false;                   ///< there is something after them
 };
 
 /// Reads the trials of a file; an absent file has none. A last line that is the beginning of a trial and was

@@ -1,4 +1,4 @@
-// Reads a line of trials.jsonl back. Such a file may come from anywhere, so nothing in it is taken on trust.
+// Reads a line of trials.jsonl back. Such a file may come from anywhere, so every value is checked.
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kDeepest = 6;        // levels of brackets
 constexpr int kLastBucket = 3000;  // of a histogram: 10^17 s
 
-/// What is wrong with a value, by its key.
+/// A problem with a value, by its key.
 struct FieldRefused {
   std::string sentence;
 };

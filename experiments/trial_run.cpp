@@ -31,7 +31,7 @@ std::string contact_text(const ContactRecord& contact) {
   return text + " at " + fixed(contact.time, 2) + " s";
 }
 
-/// Robots that did not arrive, each with what it stood for longest.
+/// Robots that did not arrive, each with its longest stop cause.
 std::string timeout_text(const sim::TrialResult& result) {
   std::string text;
   for (std::size_t i = 0; i < result.robots.size(); ++i) {
@@ -75,7 +75,7 @@ CrossingRecord crossing_of(const sim::TrialResult& result) {
   return crossing;
 }
 
-/// What is kept of a trial's result and of what was seen meanwhile.
+/// The record of a trial, from its result and the figures of the watch.
 TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const TrialWatch& watch) {
   TrialRecord record;
   record.key = cell.key;
@@ -94,7 +94,8 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
     record.failure = contact_text(*record.contact);
   if (result.outcome == sim::TrialOutcome::timeout) record.failure = timeout_text(result);
   record.cause = watch.cause_of(result);
-  if (cell.config.simulation.trial.tracking == sim::TrackingMode::full)  // else nothing drives wheels
+  if (cell.config.simulation.trial.tracking ==
+      sim::TrackingMode::full)  // otherwise there are no wheel speeds
     record.wheel_share = watch.largest_wheel_speed() / cell.config.robot.max_wheel_speed;
   record.digest = hexadecimal(result.digest);
   for (const float duration : result.plan_ms) record.plan_time.add(1e-3 * static_cast<double>(duration));

@@ -1,4 +1,4 @@
-// Runs one trial of a cell and condenses it to its record: the only way in which the program runs trials.
+// Runs one trial of a cell and condenses it to its record. The program runs all trials by this function.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@
 namespace spf {
 
 struct TrialOptions {
-  bool record = false;            ///< keep everything that a replay shows
-  int threads = 1;                ///< on which its robots think at the same time; makes no other difference
+  bool record = false;            ///< also record everything that a replay shows
+  int threads = 1;                ///< for its robots; the result does not depend on it
   std::function<double()> clock;  ///< [s] steady, callable from any thread; none: nothing is timed
   /// Called every 0.1 simulated seconds with the time [s]; false stops the trial.
   std::function<bool(double)> progress;
@@ -26,7 +26,7 @@ struct FinishedTrial {
   bool stopped = false;                             ///< by `progress`, before the trial's own end
 };
 
-/// Runs a trial, which goes the same way recorded or not. Throws std::invalid_argument or std::runtime_error,
+/// Runs a trial; recording does not change its result. Throws std::invalid_argument or std::runtime_error,
 /// with the reason, when it cannot be run.
 [[nodiscard]] FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options = {});
 

@@ -21,7 +21,7 @@ void pour(DurationHistogram& from, DurationHistogram& into) {
 TrialStore::TrialStore(const CampaignPlan& plan, std::filesystem::path folder, EarlierResults earlier)
     : plan_{plan}, folder_{std::move(folder)} {
   const std::filesystem::path path = folder_->file("trials.jsonl");
-  lines_.emplace(path);  // ours from here on, so that nobody writes while it is read
+  lines_.emplace(path);  // locked from here on, so that no other process writes while it is read
   if (earlier == EarlierResults::remove) {
     lines_->cut(0);
     folder_->remove_earlier_results();
@@ -41,12 +41,14 @@ TrialStore::TrialStore(const CampaignPlan& plan, std::filesystem::path folder, E
   }
 }
 
-/// Once more is no matter, but otherwise is.
-void TrialStore::refuse_contradiction(int cell, const TrialRecord& record, const SourcePlace& place) const {
+/// A repeated record is no problem, a different one is.
+void TrialStore::refuse_contradiction(int cell, const TrialRecord& record,
+                                      const SourceLocation& location) const {
   const auto known = known_.find({cell, record.key.trial});
   if (known == known_.end() || same_result(known->second.record, record)) return;
-  throw InputError{place, "tells trial " + std::to_string(record.key.trial) + " of " + cell_text(record.key) +
-                              " otherwise than a line before; choose another --out"};
+  throw InputError{location, "tells trial " + std::to_string(record.key.trial) + " of " +
+                                 cell_text(record.key) +
+                                 " otherwise than a line before; choose another --out"};
 }
 
 void TrialStore::add(TrialRecord record) {
@@ -56,14 +58,14 @@ void TrialStore::add(TrialRecord record) {
 }
 
 void TrialStore::keep(int cell, TrialRecord record, std::uintmax_t line) {
-  const auto [place, is_new] = known_.try_emplace({cell, record.key.trial});
+  const auto [entry, is_new] = known_.try_emplace({cell, record.key.trial});
   if (!is_new) return;
   Timings& timings = timings_[cell];
   pour(record.plan_time, timings.plan);
   pour(record.control_time, timings.control);
   pour(record.new_plan_time, timings.new_plan);
   pour(record.optimiser_time, timings.optimiser);
-  place->second = {std::move(record), line};
+  entry->second = {std::move(record), line};
 }
 
 std::vector<TrialRecord> TrialStore::finish() {

@@ -1,5 +1,5 @@
-// The trials of one run of the program. In a folder each is on the disk as soon as it ends, and nobody else
-// writes there meanwhile; in memory only what rows and tables need of it stays.
+// The trials of one run of the program. With a folder, each trial is on disk as soon as it ends, and no other
+// process writes there meanwhile; in memory only what rows and tables need of it is kept.
 #pragma once
 
 #include <cstdint>
@@ -22,22 +22,21 @@ class TrialStore {
   explicit TrialStore(const CampaignPlan& plan) : plan_{plan} {}
   /// In the folder's trials.jsonl. Earlier results are removed, or their trials taken over, each once. Throws
   /// OutputError when the folder cannot be written or another run is writing it, InputError when an earlier
-  /// trial is none of the plan's, or is told in two ways.
+  /// trial is not part of the plan, or has contradicting records.
   TrialStore(const CampaignPlan& plan, std::filesystem::path folder, EarlierResults earlier);
 
   /// The folder, null without one.
   [[nodiscard]] const ResultsFolder* folder() const { return folder_ ? &*folder_ : nullptr; }
-  /// Did the earlier results end in half a line?
+  /// Whether the earlier results ended in half a line.
   [[nodiscard]] bool torn() const { return torn_; }
   [[nodiscard]] bool has(int cell, int trial) const { return known_.count({cell, trial}) > 0; }
   [[nodiscard]] std::size_t size() const { return known_.size(); }
 
-  /// Takes a trial of the plan in. Throws OutputError when it cannot be written; the trials before it are
-  /// kept.
+  /// Adds a trial of the plan. Throws OutputError when it cannot be written; the trials before it are kept.
   void add(TrialRecord record);
 
-  /// Puts all into the order of the table, by cell and trial, on the disk too. The timings of a cell are then
-  /// those of all its trials together, in its first record.
+  /// Sorts all trials by cell and trial, the order of the table, on disk too. The first record of a cell then
+  /// has the timings of all its trials together.
   [[nodiscard]] std::vector<TrialRecord> finish();
 
  private:
@@ -48,7 +47,7 @@ class TrialStore {
   struct Timings {
     DurationHistogram plan, control, new_plan, optimiser;
   };
-  void refuse_contradiction(int cell, const TrialRecord& record, const SourcePlace& place) const;
+  void refuse_contradiction(int cell, const TrialRecord& record, const SourceLocation& location) const;
   void keep(int cell, TrialRecord record, std::uintmax_t line);
 
   const CampaignPlan& plan_;

@@ -1,6 +1,6 @@
-// Looks on while a trial runs, and keeps what its record tells beside the result: what the robots were about,
-// how long planning took, and how near the wheels came to their limit. A few numbers a robot, however long it
-// runs.
+// Listens to a running trial and keeps those parts of its record that the result does not contain: what the
+// robots were doing, how long planning took, and how near the wheels came to their limit. A few numbers per
+// robot, however long the trial runs.
 #pragma once
 
 #include <optional>
@@ -20,15 +20,16 @@ class TrialWatch : public sim::TrialListener {
   void planned(double time, const RobotAgent& agent, double plan_ms) override;
   void contact(const sim::Contact& contact) override;
 
-  /// What the robot was about that made the first contact, or else the first that is not home at the end.
+  /// What the robot that made the first contact was doing, or else the first that has not arrived at the end.
   /// None after a success.
   [[nodiscard]] std::optional<CauseRecord> cause_of(const sim::TrialResult& result) const;
   [[nodiscard]] double largest_wheel_speed() const {
     return largest_wheel_speed_;
   }  ///< [m/s] true or commanded
-  /// [s] of the planning calls that looked for a new plan: most only find that the plan is still good.
+  /// [s] of the planning calls that searched for a new plan: most calls only find that the plan is still
+  /// valid.
   [[nodiscard]] const DurationHistogram& new_plan_time() const { return new_plan_time_; }
-  /// [s] of each optimiser call: such a planning call over its number of them.
+  /// [s] of each optimiser call: the time of such a planning call divided by its number of optimiser calls.
   [[nodiscard]] const DurationHistogram& optimiser_time() const { return optimiser_time_; }
 
  private:

@@ -12,7 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t trials = trials_of(plan).size();
     fuzz::require(trials <= std::size_t{kMostTrials}, "a campaign has not too many trials");
   } catch (const InputError& error) {
-    fuzz::require(error.problems().kept().size() <= InputProblems::kMostProblems, "few problems are told");
+    fuzz::require(error.problems().kept().size() <= InputProblems::kMostProblems,
+                  "few problems are reported");
   }
   return 0;
 }

@@ -1,4 +1,4 @@
-// Recordings of people: problems are told, or there is a recording that can be cut into windows.
+// Recordings of people: problems are reported, or there is a recording that can be cut into windows.
 #include "fuzz/fuzz_input.hpp"
 #include "study/crowd_file.hpp"
 
@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::require(windows >= 1, "a recording has a window");
   const auto part = recording->window(recording->begin() + 5.0 * (windows - 1), 60.0);
   fuzz::require(part.size() <= recording->samples().size(), "a window is a part");
-  // Rounded to what a file holds, it may break a rule, but is text that can be looked at.
+  // Rounded to the digits of a file it may break a rule, but it can still be read.
   InputProblems of_copy;
   static_cast<void>(crowd_from_text(crowd_text(recording->samples()), "again.csv", of_copy));
   return 0;

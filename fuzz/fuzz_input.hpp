@@ -1,4 +1,4 @@
-// What fuzz programs share: bytes as text and as numbers, and checks that hold in every build.
+// Common parts of the fuzz programs: bytes as text and as numbers, and checks that are active in every build.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace spf::fuzz {
 
-/// Ends the program, which is how a finding is told.
+/// Ends the program when a check fails: that reports a finding to the fuzzer.
 inline void require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "does not hold: %s\n", what);
@@ -24,7 +24,7 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Reads values off the front of an input; zeros when it has ended.
+/// Reads values from the front of an input; zeros after its end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_{data}, left_{size} {}
@@ -45,7 +45,7 @@ class Bytes {
   }
   /// Up to `most`.
   int up_to(int most) { return byte() % (most + 1); }
-  /// Mostly of the size of things in a room; any number now and then.
+  /// Mostly of the size of things in a room, sometimes any number.
   double number() {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     constexpr double kSpecial[] = {0.0,    std::numeric_limits<double>::quiet_NaN(),
@@ -60,7 +60,7 @@ class Bytes {
     if (kind < 240) return 0.001 * static_cast<double>(whole<std::int16_t>());
     return whole<double>();
   }
-  /// A place or velocity.
+  /// A position or velocity.
   Eigen::Vector2d pair() {
     const double x = number();
     return {x, number()};

@@ -1,5 +1,5 @@
-// Messages of peers, and of somebody who speaks as the robot's own planner: to the agent, and through the
-// hosts' gates.
+// Messages of peers, and forged messages of the robot's own planner: to the agent, and through the hosts'
+// input checks.
 #include <cmath>
 
 #include "fuzz/robot_world.hpp"
@@ -16,7 +16,7 @@ Trajectory trajectory_of(fuzz::Bytes& bytes, double now) {
     const int rows = bytes.up_to(6);
     for (int row = 0; row < rows && row < 6; ++row) piece.coefficients.row(row) = bytes.pair().transpose();
     piece.duration = std::abs(bytes.number());
-    if (piece.duration > 0.0) trajectory.append(piece);  // others cannot be told (conversions refuse them)
+    if (piece.duration > 0.0) trajectory.append(piece);  // conversions refuse others
   }
   if (bytes.up_to(3) == 0) {
     HeadingPhases phases;
@@ -53,7 +53,7 @@ void tell_table(fuzz::Bytes bytes) {
     const std::vector<Peer>& peers = table.peers(now);
     fuzz::require(peers.size() <= kMostPeers, "peers are bounded");
     for (const Peer& peer : peers)
-      for (const double time : {-1e9, now, now + 0.5, 1e9}) fuzz::require_somewhere(peer, time);
+      for (const double time : {-1e9, now, now + 0.5, 1e9}) fuzz::require_finite(peer, time);
   }
 }
 

@@ -9,7 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const RobotFile again = robot_file_from_text(to_yaml_text(file), "again.yaml");
     fuzz::require(to_yaml_text(again) == to_yaml_text(file), "a robot file reads back as it was written");
   } catch (const InputError& error) {
-    fuzz::require(error.problems().kept().size() <= InputProblems::kMostProblems, "few problems are told");
+    fuzz::require(error.problems().kept().size() <= InputProblems::kMostProblems,
+                  "few problems are reported");
   }
   return 0;
 }

@@ -1,4 +1,4 @@
-// A robot for fuzz programs: in one process, or split, and what must hold of it whatever comes in.
+// A robot for fuzz programs, in one process or split, and the invariants that hold for any input.
 #pragma once
 
 #include <cmath>
@@ -23,23 +23,23 @@ inline AgentParameters agent_of(Bytes& bytes) {
   return with_method(AgentParameters{}, kMethods[bytes.up_to(3)]);
 }
 
-/// With numbers that can be reckoned with.
-inline void require_somewhere(const Peer& peer, double time) {
+/// All numbers of a peer are believable.
+inline void require_finite(const Peer& peer, double time) {
   require(
       std::isfinite(peer.position(time).squaredNorm()) && std::isfinite(peer.velocity(time).squaredNorm()),
-      "peers are somewhere");
+      "peers have finite positions");
 }
 
 inline void require_sound(const RobotAgent& agent) {
-  require(agent.committed().position(1e3).allFinite(), "a committed plan leads to a place");
+  require(agent.committed().position(1e3).allFinite(), "a committed plan ends at a finite position");
   require(std::isfinite(agent.committed().duration()), "a committed plan ends");
   require(agent.peers().size() <= kMostPeers, "peers are bounded");
   require(agent.tracks().size() <= kMostTracks, "tracks are bounded");
   for (const Peer& peer : agent.peers())
-    for (const double time : {-1e9, 0.0, 0.5, 1e9}) require_somewhere(peer, time);
+    for (const double time : {-1e9, 0.0, 0.5, 1e9}) require_finite(peer, time);
   for (const ObstacleTrack& track : agent.tracks())
     require(track.state.position_world.allFinite() && track.state.velocity_world.allFinite(),
-            "tracks are somewhere");
+            "tracks have finite positions");
 }
 
 /// A robot that takes whatever is given at its word, already started.
@@ -58,8 +58,8 @@ inline void step(host::RobotHost& robot, double time) {
   if (robot.planner().agent() != nullptr) require_sound(*robot.planner().agent());
 }
 
-/// The first byte of an input chooses who is given the rest: a robot without gates, a robot with them, or one
-/// part alone.
+/// The first byte of an input chooses what receives the rest: a robot without gates, a robot with them, or
+/// one part alone.
 inline void give(Bytes bytes, void (*to_agent)(Bytes), void (*to_hosts)(Bytes), void (*to_part)(Bytes)) {
   const int choice = bytes.up_to(3);
   (choice == 0 ? to_agent : choice == 1 ? to_hosts : to_part)(bytes);

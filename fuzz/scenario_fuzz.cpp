@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const std::runtime_error&) {  // no scene for this layout
     }
   } catch (const InputError& error) {
-    fuzz::require(error.problems().kept().size() <= InputProblems::kMostProblems, "few problems are told");
+    fuzz::require(error.problems().kept().size() <= InputProblems::kMostProblems,
+                  "few problems are reported");
   }
   return 0;
 }

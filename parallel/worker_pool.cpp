@@ -33,7 +33,7 @@ class WorkerPool::Round {
       }
     }
   }
-  /// To be asked when nobody works any more.
+  /// To be called when no job is running any more.
   void rethrow_failure() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -48,7 +48,7 @@ class WorkerPool::Round {
   std::size_t failed_ = 0;
 };
 
-/// What the threads share. A thread takes part in every round once, however late it wakes.
+/// State shared by the threads. A thread takes part in every round once, however late it wakes.
 struct WorkerPool::Shared {
   std::mutex mutex;  // guards what follows
   std::condition_variable begins, ended;

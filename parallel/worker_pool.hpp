@@ -1,5 +1,5 @@
 // The only threads of the library: a pool that runs independent jobs. A job may depend on its number alone
-// and write only what is its own; results are then the same for any number of threads.
+// and write only its own data; results are then the same for any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace spf {
 
 /// Processors of this machine, at least 1.
 [[nodiscard]] int processor_count();
-/// Threads for a number that a user asks for: 0 means one per processor.
+/// Number of threads for a user's setting, where 0 means one per processor.
 [[nodiscard]] int thread_count(int asked);
 
 class WorkerPool {
@@ -30,9 +30,9 @@ class WorkerPool {
   /// time: a job must not use its own pool.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& job);
 
-  /// The same, with results: make(i) gives a std::optional on any thread, and take(i, result) gets it, called
-  /// by one thread at a time in the order in which the jobs end. Nothing made, or take returning false,
-  /// stops: no further jobs begin, and the results of those under way are dropped.
+  /// The same, with results: make(i) returns a std::optional on any thread, and take(i, result) receives it,
+  /// called by one thread at a time in the order in which the jobs end. An empty optional, or false from
+  /// take, stops the run: no further jobs begin, and the results of running ones are dropped.
   template <class Make, class Take>
   void collect(std::size_t count, Make&& make, Take&& take) {
     std::mutex mutex;  // guards what follows, and `take`
@@ -50,7 +50,7 @@ class WorkerPool {
  private:
   class Round;
   struct Shared;
-  /// Jobs that return false let no further ones begin.
+  /// A job that returns false stops the run: no further ones begin.
   void run(std::size_t count, const std::function<bool(std::size_t)>& job);
 
   int threads_;

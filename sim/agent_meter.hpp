@@ -8,16 +8,16 @@
 
 namespace spf::sim {
 
-/// What the agents did: the planning effort and the standing about of a RobotResult.
+/// What the agents did: the planning effort and the stop times of a RobotResult.
 class AgentMeter {
  public:
   explicit AgentMeter(std::size_t robots) : robots_(robots) {}
 
   /// A planning call of a robot ended.
   void planned(int robot, const PlanResult& plan);
-  /// For `duration` [s] the robot has had this status.
+  /// The robot has had this status for `duration` [s].
   void stood(int robot, const AgentStatus& status, double duration);
-  /// Fills it into a result that holds the truth of the same robots.
+  /// Adds the figures to a result that holds the ground truth of the same robots.
   void finish(TrialResult& result) const;
 
  private:

@@ -79,11 +79,11 @@ StaticShapes::StaticShapes(const Scenario& scenario)
   grid_.assign(centers_);
 }
 
-double StaticShapes::distance_to(const Shape& shape, const Eigen::Vector2d& place) const {
+double StaticShapes::distance_to(const Shape& shape, const Eigen::Vector2d& position) const {
   const auto index = static_cast<std::size_t>(shape.index);
-  if (shape.kind == ContactWith::box) return distance_to_box(place, boxes_[index]);
-  if (shape.kind == ContactWith::disc) return (place - discs_[index].center).norm() - discs_[index].radius;
-  return distance_to_segment(place, walls_[index]);
+  if (shape.kind == ContactWith::box) return distance_to_box(position, boxes_[index]);
+  if (shape.kind == ContactWith::disc) return (position - discs_[index].center).norm() - discs_[index].radius;
+  return distance_to_segment(position, walls_[index]);
 }
 
 double StaticShapes::swept_distance_to(const Shape& shape, const Motion& motion) const {

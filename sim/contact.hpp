@@ -18,8 +18,8 @@ enum class ContactWith { moving, person, robot, box, disc, wall, border };
 
 }  // namespace sim
 
-/// The words stand in result files, so they stay: discs that move are called discs there, and discs that
-/// stand, pillars.
+/// The words are those of result files and do not change: moving discs are called discs there, static discs
+/// pillars.
 template <>
 struct EnumNames<sim::ContactWith> {
   static constexpr std::array<std::pair<sim::ContactWith, const char*>, 7> values{
@@ -36,7 +36,7 @@ struct EnumNames<sim::ContactWith> {
 
 namespace spf::sim {
 
-/// Who touched what, when, and how fast both were.
+/// Which robot touched what, when, and how fast both were.
 struct Contact {
   double time = 0.0;  ///< [s]
   int robot = -1;
@@ -60,7 +60,8 @@ struct Motion {
 /// Share of the step in [0, 1] at which two moving points are first nearer than `distance`.
 [[nodiscard]] std::optional<double> first_within(const Motion& a, const Motion& b, double distance);
 
-/// The static shapes of a scenario, asked for clearances. Far shapes are skipped with a grid of their places.
+/// Clearances to the static shapes of a scenario. Far shapes are skipped by means of a grid of their
+/// positions.
 class StaticShapes {
  public:
   explicit StaticShapes(const Scenario& scenario);
@@ -79,7 +80,7 @@ class StaticShapes {
     ContactWith kind;
     int index;
   };
-  [[nodiscard]] double distance_to(const Shape& shape, const Eigen::Vector2d& place) const;
+  [[nodiscard]] double distance_to(const Shape& shape, const Eigen::Vector2d& position) const;
   [[nodiscard]] double swept_distance_to(const Shape& shape, const Motion& motion) const;
 
   std::optional<Box> border_;

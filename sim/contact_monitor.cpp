@@ -9,7 +9,7 @@ namespace {
 constexpr double kStandingSpeed = 0.05;    // [m/s] (PED)
 constexpr double kStandingTime = 1.0;      // [s] (PED)
 constexpr double kForgivenDistance = 1.5;  // [m] centre to centre (PED)
-constexpr double kPairMargin = 0.25;       // [m] that a robot may move before the near pairs are listed anew
+constexpr double kPairMargin = 0.25;       // [m] that a robot may move before the near pairs are listed again
 
 Motion part_of(const Motion& motion, double share_from, double share_to) {
   return {motion.at(share_from), motion.at(share_to)};
@@ -84,7 +84,7 @@ void ContactMonitor::check_dynamic_obstacles(const Tick& tick, std::size_t robot
   }
 }
 
-/// Both ends of the motion in a free disc: so is all of it. Otherwise it is looked at closely.
+/// If both ends of the motion lie in a free disc, all of it does. Otherwise it is checked exactly.
 void ContactMonitor::check_static(const Tick& tick, std::size_t robot, const RobotTruth& truth) {
   const double wanted = truth.arrived ? 0.0 : std::max(static_clearance_[robot], 0.0);
   const double bound = std::min(free_[robot].bound(truth.motion.from), free_[robot].bound(truth.motion.to));

@@ -1,5 +1,4 @@
-// Watches a trial for contacts, tick by tick, and for how near things came (docs/protocol.md).
-// Frame: world.
+// Detects contacts in a trial, tick by tick, and measures least distances (docs/protocol.md). Frame: world.
 #pragma once
 
 #include <set>
@@ -29,12 +28,11 @@ class ContactMonitor {
              const std::vector<DynamicObstacle>& dynamic_obstacles);
 
   [[nodiscard]] const std::vector<Contact>& contacts() const { return contacts_; }
-  /// Recorded people who walked into a robot that had stood still for a second; they do not react, so it is
-  /// no contact of the robot's making.
+  /// Contacts of recorded people with a robot that had stood still for a second; people do not react, so
+  /// these are not caused by the robot.
   [[nodiscard]] const std::vector<Contact>& hits_while_standing() const { return hits_while_standing_; }
 
-  // Over the time so far, of robots that had not yet arrived; infinite when there was nothing to come near
-  // to.
+  // Least values so far, of robots that had not yet arrived; infinite when there was nothing to measure to.
   [[nodiscard]] double dynamic_distance() const { return dynamic_distance_; }    ///< [m] centre to centre
   [[nodiscard]] double dynamic_clearance() const { return dynamic_clearance_; }  ///< [m] minus radii
   [[nodiscard]] double peer_clearance() const { return peer_clearance_; }  ///< [m] exact below kNearPeer
@@ -44,8 +42,8 @@ class ContactMonitor {
     return static_clearance_[static_cast<std::size_t>(robot)];
   }
 
-  static constexpr double kNearPeer = 1.0;   ///< [m] clearance from which peers are not looked at
-  static constexpr double kFarStatic = 3.0;  ///< [m] clearance from which static shapes are not looked at
+  static constexpr double kNearPeer = 1.0;   ///< [m] clearance beyond which peers are not checked
+  static constexpr double kFarStatic = 3.0;  ///< [m] clearance beyond which static shapes are not checked
 
   [[nodiscard]] const StaticShapes& shapes() const { return shapes_; }
 
@@ -62,13 +60,13 @@ class ContactMonitor {
   [[nodiscard]] Contact contact_of(const Tick& tick, double share, std::size_t robot,
                                    const RobotTruth& truth) const;
 
-  /// A disc of places that are known to be free of static contact.
+  /// A disc of positions known to be free of static contact.
   struct FreeDisc {
     Eigen::Vector2d center = Eigen::Vector2d::Zero();  // [m]
     double radius = -1.0;                              // [m]
-    /// The clearance at a place is at least this [m].
-    [[nodiscard]] double bound(const Eigen::Vector2d& place) const {
-      return radius - (place - center).norm();
+    /// Lower bound of the clearance at a position [m].
+    [[nodiscard]] double bound(const Eigen::Vector2d& position) const {
+      return radius - (position - center).norm();
     }
   };
 
@@ -84,7 +82,7 @@ class ContactMonitor {
   std::vector<bool> touching_static_;                 // by robot: counted once while it lasts
   std::vector<double> standing_time_;                 // [s] by robot
   std::set<int> people_present_;                      // ids in the last tick
-  std::set<std::pair<int, int>> forgiven_;            // (robot, person): appeared too near, not yet gone
+  std::set<std::pair<int, int>> forgiven_;            // (robot, person): appeared too near, has not left yet
   std::set<std::pair<int, int>> touching_obstacles_;  // (robot, obstacle): counted once while it lasts
   std::set<std::pair<int, int>> touching_pairs_;      // robots that have touched: counted once
   double dynamic_distance_;

@@ -133,7 +133,7 @@ TEST(ContactMonitor, PeopleWhoAppearTooNearAreForgivenUntilTheyHaveLeft) {
   EXPECT_EQ(stage.run().contacts().size(), 1U);
 }
 
-/// Robots that wander through a cluttered place, and what a look at everything in every tick finds.
+/// Robots that wander through a cluttered scene, and what an exhaustive check in every tick finds.
 TEST(ContactMonitor, ShortcutsFindWhatALookAtEverythingFinds) {
   RandomStream random{31};
   Scenario scenario;

@@ -79,13 +79,13 @@ TEST(Contact, StaticShapesMatchSampling) {
     double least = 1e9;
     for (int k = 0; k <= kSamples; ++k) {
       const double share = static_cast<double>(k) / kSamples;
-      const Eigen::Vector2d place = motion.at(share);
+      const Eigen::Vector2d position = motion.at(share);
       const double clearance =
-          std::min({depth_inside(place, *scenario.border), distance_to_box(place, scenario.boxes[0]),
-                    (place - scenario.discs[0].center).norm() - scenario.discs[0].radius,
-                    distance_to_segment(place, scenario.walls[0])}) -
+          std::min({depth_inside(position, *scenario.border), distance_to_box(position, scenario.boxes[0]),
+                    (position - scenario.discs[0].center).norm() - scenario.discs[0].radius,
+                    distance_to_segment(position, scenario.walls[0])}) -
           radius;
-      EXPECT_NEAR(shapes.clearance(place, radius), clearance, 1e-12);
+      EXPECT_NEAR(shapes.clearance(position, radius), clearance, 1e-12);
       least = std::min(least, clearance);
       if (first < 0.0 && clearance < 0.0) first = share;
     }
@@ -129,12 +129,12 @@ TEST(UniformGrid, ReportsEveryNearPointOnce) {
   UniformGrid grid{1.5};
   grid.assign(points);
   for (const double radius : {0.0, 0.7, 3.0, 100.0, std::numeric_limits<double>::infinity()}) {
-    const Eigen::Vector2d place = draw(random, 20.0);
+    const Eigen::Vector2d position = draw(random, 20.0);
     std::vector<int> visits(points.size(), 0);
-    grid.visit(place, radius, [&](int index) { ++visits[static_cast<std::size_t>(index)]; });
+    grid.visit(position, radius, [&](int index) { ++visits[static_cast<std::size_t>(index)]; });
     for (std::size_t i = 0; i < points.size(); ++i) {
       EXPECT_LE(visits[i], 1);
-      if ((points[i] - place).norm() <= radius) {
+      if ((points[i] - position).norm() <= radius) {
         EXPECT_EQ(visits[i], 1);
       }
     }

@@ -1,4 +1,4 @@
-// A recorded crowd as moving discs: a person moves linearly between the samples of the recording, is there
+// A recorded crowd as moving discs: a person moves linearly between the samples of the recording, is present
 // from the first to the last of them, and does not react. Frame: world.
 #pragma once
 
@@ -11,12 +11,12 @@ namespace spf::sim {
 
 class Crowd {
  public:
-  /// Who is unseen for longer than `longest_gap` [s] is away meanwhile.
+  /// A person without a sample for longer than `longest_gap` [s] is absent meanwhile.
   explicit Crowd(const std::vector<CrowdSample>& samples,
                  double longest_gap = std::numeric_limits<double>::infinity());
 
-  /// Calls visit(id, from, to) for everybody who is there at `time` and still there at `time + step` [s], by
-  /// ascending id, with the positions at both. Times must not go back.
+  /// Calls visit(id, from, to) for everyone present both at `time` and at `time + step` [s], by ascending id,
+  /// with the positions at both. Times must not decrease.
   template <class Visit>
   void visit(double time, double step, Visit&& visit) {
     for (Presence& person : presences_) {
@@ -31,7 +31,7 @@ class Crowd {
  private:
   static constexpr double kRounding = 1e-9;  // [s] of times that were shifted
 
-  /// A person from coming to going.
+  /// A person from entering to leaving.
   struct Presence {
     int id = 0;
     std::size_t cursor = 0;  // the sample at or before the time last asked for

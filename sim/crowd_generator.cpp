@@ -10,7 +10,7 @@ namespace spf::sim {
 namespace {
 
 constexpr double kStep = 0.1;        // [s]
-constexpr double kRelaxation = 0.5;  // [s] in which people take up the velocity they want
+constexpr double kRelaxation = 0.5;  // [s] in which people take up their preferred velocity
 constexpr double kLookAhead = 3.0;   // [s]
 constexpr double kUrgency = 1.0;     // [s] a meeting this far ahead counts 1/e
 constexpr double kAvoiding = 4.0;    // [m/s^2] for a meeting at once and at kBodies
@@ -19,8 +19,8 @@ constexpr double kPushRange = 0.12;  // [m] the distance over which it falls to 
 constexpr double kBodies = 0.5;      // [m] centres of two people who touch
 constexpr double kComfort = 0.25;    // [m] beyond that over which avoiding falls to 1/e
 constexpr double kHurry = 1.3;       // [1] fastest, in wanted speeds
-constexpr double kStrongest = 4.0;   // [m/s^2] nobody accelerates more
-constexpr double kEntryGap = 0.9;    // [m] from others where somebody comes in
+constexpr double kStrongest = 4.0;   // [m/s^2] largest acceleration
+constexpr double kEntryGap = 0.9;    // [m] from others to an entering person
 constexpr double kPairGap = 0.7;     // [m] between the two of a pair
 
 struct Walker {
@@ -34,8 +34,9 @@ struct Walker {
   [[nodiscard]] bool standing() const { return !stop && stop_left > 0.0; }
 };
 
-/// What `self` does to keep clear of another: away from where the other would be nearest to it, the sooner
-/// and nearer the stronger; who would be hit head-on steps to the right. Bodies push apart.
+/// Acceleration by which `self` avoids another: away from the other's predicted position at closest approach,
+/// the sooner and nearer the stronger; to the right when the encounter is head-on. Touching bodies push each
+/// other apart.
 Eigen::Vector2d avoidance(const Walker& self, const Walker& other) {
   const Eigen::Vector2d apart = self.position - other.position;
   const Eigen::Vector2d closing = self.velocity - other.velocity;
@@ -60,8 +61,8 @@ class Plaza {
   Plaza(const CrowdGeneratorParameters& parameters, std::uint64_t seed)
       : parameters_{parameters}, random_{mix(seed, 0x43524F5744ULL)} {
     // Little's law: people at once = arrivals a second x time of a stay.
-    const double way = 0.9 * 0.5 * (parameters_.width + parameters_.height);
-    const double stay = way / parameters_.speed + parameters_.stops * 0.6 * parameters_.longest_stop;
+    const double path = 0.9 * 0.5 * (parameters_.width + parameters_.height);
+    const double stay = path / parameters_.speed + parameters_.stops * 0.6 * parameters_.longest_stop;
     const double arrivals = parameters_.people / stay / (1.0 + parameters_.pairs);
     arrival_chance_ = 1.0 - std::exp(-arrivals * kStep);
   }
@@ -72,7 +73,7 @@ class Plaza {
     move();
   }
 
-  /// The first sample begins the numbering, so that nobody has to know of the people before it.
+  /// Ids start at the first sample, so that people who left before it leave no gap.
   void record(double time, std::vector<CrowdSample>& samples) {
     for (Walker& walker : walkers_) {
       if (walker.id == 0) walker.id = ++last_id_;
@@ -84,18 +85,19 @@ class Plaza {
   Eigen::Vector2d on_side(int side, double share) const {
     const Eigen::Vector2d size{parameters_.width, parameters_.height};
     const int axis = side < 2 ? 0 : 1;
-    Eigen::Vector2d place = share * size;
-    place[axis] = side % 2 == 0 ? 0.0 : size[axis];
-    return place;
+    Eigen::Vector2d position = share * size;
+    position[axis] = side % 2 == 0 ? 0.0 : size[axis];
+    return position;
   }
 
-  bool is_free(const Eigen::Vector2d& place) const {
-    return std::none_of(walkers_.begin(), walkers_.end(),
-                        [&](const Walker& walker) { return (walker.position - place).norm() < kEntryGap; });
+  bool is_free(const Eigen::Vector2d& position) const {
+    return std::none_of(walkers_.begin(), walkers_.end(), [&](const Walker& walker) {
+      return (walker.position - position).norm() < kEntryGap;
+    });
   }
 
-  /// Somebody, or two, come in at a side and want to leave at another, mostly the opposite one. False when
-  /// the entry is taken.
+  /// One or two people enter at a side and head for another, mostly the opposite one. False when the entry is
+  /// occupied.
   bool arrive() {
     const int side = static_cast<int>(4.0 * random_.uniform());
     const bool straight = random_.uniform() < 0.6;
@@ -159,7 +161,7 @@ class Plaza {
                    walkers_.end());
   }
 
-  /// Beyond a side, or where it wanted to go. Who comes in may begin a little outside.
+  /// Beyond a side, or at its goal. Entering people may start slightly outside.
   [[nodiscard]] bool has_left(const Walker& walker) const {
     constexpr double kOutside = 1.0;  // [m]
     const Eigen::Vector2d size{parameters_.width, parameters_.height};
@@ -170,7 +172,7 @@ class Plaza {
   CrowdGeneratorParameters parameters_;
   RandomStream random_;
   double arrival_chance_ = 0.0;  // in a step
-  int waiting_ = 0;              // arrivals that found no free place yet
+  int waiting_ = 0;              // arrivals that found no free entry yet
   int last_id_ = 0;
   std::vector<Walker> walkers_;
 };
@@ -180,7 +182,7 @@ class Plaza {
 std::vector<CrowdSample> generate_crowd(const CrowdGeneratorParameters& parameters, std::uint64_t seed) {
   const CrowdGeneratorParameters checked = validated(parameters);
   Plaza plaza{checked, seed};
-  const double filling = 3.0 * (checked.width + checked.height) / checked.speed;  // [s] to the usual number
+  const double filling = 3.0 * (checked.width + checked.height) / checked.speed;  // [s] until steady
   for (int i = 0; i < static_cast<int>(filling / kStep); ++i) plaza.step();
   const int steps = static_cast<int>(std::floor(checked.duration / kStep + 1e-9));
   const int every = std::max(1, static_cast<int>(std::lround(checked.sample_interval / kStep)));

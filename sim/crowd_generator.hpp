@@ -1,6 +1,6 @@
 // A synthetic crowd in the form of a recording: people come in at the sides of a rectangle, walk to another
-// side, alone or in pairs, some stop on the way; they avoid each other by looking ahead to where they would
-// come nearest. They do not know of robots. Frame: world, origin in the lower left corner of the rectangle.
+// side, alone or in pairs, some stop on the way; they avoid each other at the predicted point of closest
+// approach. They ignore robots. Frame: world, origin in the lower left corner of the rectangle.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ struct CrowdGeneratorParameters {
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("people", self.people, "1", Range{0.1, 1000.0}, "people at once, on average");
     visit("duration", self.duration, "s", Range{1.0, 36000.0}, "length of the recording");
-    visit("width", self.width, "m", Range{4.0, 1000.0}, "of the place, along x");
-    visit("height", self.height, "m", Range{4.0, 1000.0}, "of the place, along y");
+    visit("width", self.width, "m", Range{4.0, 1000.0}, "of the area, along x");
+    visit("height", self.height, "m", Range{4.0, 1000.0}, "of the area, along y");
     visit("speed", self.speed, "m/s", Range{0.2, 3.0}, "mean of the speeds at which people like to walk");
     visit("speed_sigma", self.speed_sigma, "m/s", Range{0.0, 1.0}, "spread of these speeds");
     visit("pairs", self.pairs, "1", Range{0.0, 1.0}, "part of the arrivals that are two people side by side");
@@ -38,8 +38,8 @@ struct CrowdGeneratorParameters {
   }
 };
 
-/// Samples by time, then by person; ids 1, 2, ... in the order of arrival. The same for the same parameters
-/// and seed on every machine. Throws std::invalid_argument on parameters out of range.
+/// Samples by time, then by person; ids 1, 2, ... in the order of arrival. Equal parameters and seed give
+/// equal samples on every machine. Throws std::invalid_argument on parameters out of range.
 [[nodiscard]] std::vector<CrowdSample> generate_crowd(const CrowdGeneratorParameters& parameters,
                                                       std::uint64_t seed);
 

@@ -14,9 +14,9 @@ double median_interval(const std::vector<CrowdSample>& samples) {
   std::unordered_map<int, double> last_seen;
   std::vector<double> intervals;
   for (const CrowdSample& sample : samples) {
-    const auto [place, is_new] = last_seen.try_emplace(sample.id, sample.time);
-    if (!is_new) intervals.push_back(sample.time - place->second);
-    place->second = sample.time;
+    const auto [last, is_new] = last_seen.try_emplace(sample.id, sample.time);
+    if (!is_new) intervals.push_back(sample.time - last->second);
+    last->second = sample.time;
   }
   if (intervals.empty()) return 0.0;
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);

@@ -26,7 +26,7 @@ std::vector<CrowdSample> sorted(std::vector<CrowdSample> samples) {
   return samples;
 }
 
-/// A place of 12 m x 10 m in which two people stand in corners for 100 s.
+/// An area of 12 m x 10 m in which two people stand in corners for 100 s.
 std::vector<CrowdSample> quiet_place() {
   std::vector<CrowdSample> samples;
   add_walk(samples, 1, {0.0, 0.0}, Eigen::Vector2d::Zero(), 0.0, 100.0);
@@ -91,7 +91,7 @@ TEST(PedestrianFamily, PutsTheStartOffUntilNobodyIsNear) {
   add_walk(samples, 3, {0.0, 3.0}, {0.0, 1.0}, 0.0, 4.0);
   FamilySetup setup = setup_with(samples);
   EXPECT_EQ(make_scenario(setup, kDefaultSeed, 0).crowd.front().time, 0.0);
-  setup.layout.window_spacing = 2.0;  // the next begins at 2 s, put off to 3.2 s
+  setup.layout.window_spacing = 2.0;  // the next begins at 2 s, delayed to 3.2 s
   const Scenario scenario = make_scenario(setup, kDefaultSeed, 1);
   Crowd crowd{scenario.crowd, scenario.crowd_gap};
   bool met = false;
@@ -143,8 +143,8 @@ TEST(PedestrianFamily, LateIsNotInTime) {
   EXPECT_EQ(result.outcome, TrialOutcome::timeout);
 }
 
-/// Somebody walks along the way of two robots that see nothing before it is too late; the contact is counted
-/// once for each of them, and all go on.
+/// A person walks along the path of two robots that detect nothing until it is too late; the contact is
+/// counted once for each of them, and all go on.
 TEST(PedestrianFamily, AContactDoesNotEndTheTrial) {
   std::vector<CrowdSample> samples = quiet_place();
   add_walk(samples, 10, {9.0, 5.0}, {-1.0, 0.0}, 0.0, 8.8);

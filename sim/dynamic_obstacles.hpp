@@ -1,5 +1,5 @@
-// Everything that moves in a trial and is no robot: the scenario's discs and its recorded crowd, in steps of
-// 0.1 s within which each moves linearly. Frame: world.
+// The dynamic obstacles of a trial: the scenario's moving discs and its recorded crowd, in steps of 0.1 s
+// within which each moves linearly. Frame: world.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 namespace spf::sim {
 
 struct DynamicObstacle {
-  int id = 0;  ///< of the detector: discs 0, 1, 2, ...; people follow after the last disc
+  int id = 0;  ///< as the detector reports it: discs 0, 1, 2, ...; people follow after the last disc
   bool person = false;
   double radius = 0.0;                                       ///< [m]
   Motion motion;                                             ///< over the current step

@@ -13,10 +13,10 @@
 namespace spf::sim {
 namespace {
 
-constexpr double kSidePerRoot = 5.0;      // [m] side of a FIELD over the root of its robots
-constexpr double kRobotsPerPillar = 4.0;  // [1] of a FIELD
-constexpr int kMaxTries = 2000;           // within one group of shapes (docs/protocol.md)
-constexpr int kMaxAttempts = 1000;        // scenes; ours, so that an impossible layout ends with a message
+constexpr double kSidePerRoot = 5.0;          // [m] side of a FIELD over the root of its robots
+constexpr double kRobotsPerStaticDisc = 4.0;  // [1] of a FIELD
+constexpr int kMaxTries = 2000;               // within one group of shapes (docs/protocol.md)
+constexpr int kMaxAttempts = 1000;  // scenes; our choice, so that an impossible layout ends with a message
 
 Eigen::Vector2d draw_point(RandomStream& random, double half_width, double half_height) {
   const double x = random.uniform(-half_width, half_width);
@@ -30,14 +30,13 @@ Eigen::Vector2d polar(double length, double angle) {
 
 RobotTask task_between(const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
   RobotTask task;
-  const Eigen::Vector2d way = goal - start;
-  task.start = {start, std::atan2(way.y(), way.x())};  // looks where it goes
+  const Eigen::Vector2d to_goal = goal - start;
+  task.start = {start, std::atan2(to_goal.y(), to_goal.x())};  // heading towards the goal
   task.goal_world = goal;
   return task;
 }
 
-/// Draws `count` things; `draw_one` returns false when its draw is rejected. False: more than kMaxTries
-/// tries.
+/// Draws `count` things; `draw_one` returns false when its draw is rejected. False after kMaxTries tries.
 template <class DrawOne>
 bool draw_group(int count, DrawOne&& draw_one) {
   int tries = 0;
@@ -49,7 +48,6 @@ bool draw_group(int count, DrawOne&& draw_one) {
 }
 
 // ---- T2, T2-hard, F7
-// -----------------------------------------------------------------------------------------------
 
 void draw_circle_of_robots(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
   const double phase = random.uniform(0.0, 2.0 * kPi);
@@ -109,7 +107,6 @@ bool draw_crossing(RandomStream& random, const LayoutParameters& layout, Scenari
 }
 
 // ---- P8
-// ------------------------------------------------------------------------------------------------------------
 
 constexpr double kArenaWidth = 1.374;   // [m] along x, the short side
 constexpr double kArenaLength = 2.432;  // [m] along y
@@ -169,7 +166,6 @@ bool draw_platform(RandomStream& random, const LayoutParameters& layout, Scenari
 }
 
 // ---- SWAP, FIELD
-// ---------------------------------------------------------------------------------------------------
 
 bool draw_swap(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
   const double spacing = 2.0 * kPi / layout.robots;
@@ -181,9 +177,9 @@ bool draw_swap(RandomStream& random, const LayoutParameters& layout, Scenario& s
   return true;
 }
 
-bool is_free(const Eigen::Vector2d& place, const std::vector<Eigen::Vector2d>& taken, double center_gap) {
+bool is_free(const Eigen::Vector2d& position, const std::vector<Eigen::Vector2d>& taken, double center_gap) {
   for (const Eigen::Vector2d& other : taken)
-    if ((place - other).squaredNorm() < center_gap * center_gap) return false;
+    if ((position - other).squaredNorm() < center_gap * center_gap) return false;
   return true;
 }
 
@@ -201,7 +197,7 @@ bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& 
   std::vector<Eigen::Vector2d> goals;
   for (int i = 0; i < layout.robots; ++i) {
     const bool placed =
-        draw_group(1, [&] {  // start and goal together: some starts have no goal in a small field
+        draw_group(1, [&] {  // start and goal together, since in a small field some starts admit no goal
           const Eigen::Vector2d start = draw_point(random, half, half);
           const Eigen::Vector2d goal = draw_point(random, half, half);
           const double distance = (goal - start).norm();
@@ -216,7 +212,7 @@ bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& 
   }
   const double end_gap = kGap + kStaticDiscRadius + scenario.robot.radius;
   std::vector<Eigen::Vector2d> discs;
-  const int count = static_cast<int>(static_cast<double>(layout.robots) / kRobotsPerPillar);
+  const int count = static_cast<int>(static_cast<double>(layout.robots) / kRobotsPerStaticDisc);
   for (int i = 0; i < count; ++i) {
     const bool placed = draw_group(1, [&] {
       const Eigen::Vector2d center = draw_point(random, half, half);
@@ -329,7 +325,7 @@ FamilySetup family_setup(Family family) {
       setup.layout.robots = 50;
       setup.layout.squares = setup.layout.discs = 0;
       setup.simulation.radio.range =
-          20.0;  // two plans' length: what a robot hears must not grow with the fleet
+          20.0;  // [m] twice a plan's length: the number of peers in range must not grow with the fleet
       break;
     case Family::ped:
       make_pedestrian(setup);
@@ -340,9 +336,9 @@ FamilySetup family_setup(Family family) {
 
 namespace {
 
-/// A hopeless layout ends with its message in seconds, however many robots and shapes it asks for.
+/// An impossible layout ends with its message in seconds, however many robots and shapes it contains.
 int attempts_for(const LayoutParameters& layout) {
-  constexpr int kMostThings = 200'000;  // drawn in all attempts together
+  constexpr int kMostThings = 200'000;  // in all attempts together
   return std::clamp(kMostThings / (layout.robots + layout.squares + layout.discs + 1), 20, kMaxAttempts);
 }
 

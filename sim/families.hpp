@@ -15,10 +15,10 @@ namespace spf::sim {
 enum class Family {
   t2,       ///< five robots cross a field with squares and discs (the paper's Table 2)
   t2_hard,  ///< the same, crowded
-  f7,       ///< twelve robots, one disc, sensed map (the paper's Fig. 7)
+  f7,       ///< twelve robots, one moving disc, sensed map (the paper's Fig. 7)
   p8,       ///< the paper's platform: eight small robots in a walled arena (Fig. 8)
-  swap,     ///< robots on a circle change places
-  field,    ///< equal density at any number of robots
+  swap,     ///< robots on a circle exchange positions
+  field,    ///< equal density for any number of robots
   ped,      ///< robots cross a recorded crowd
 };
 
@@ -40,8 +40,7 @@ struct EnumNames<sim::Family> {
 
 namespace spf::sim {
 
-/// What a family draws. Every family uses the entries that it has a use for; family_setup() gives their
-/// values.
+/// What a family draws. Every family uses some of the entries; family_setup() gives their values.
 struct LayoutParameters {
   int robots = 5;
   int squares = 6;
@@ -85,13 +84,13 @@ struct LayoutParameters {
   }
 };
 
-/// Everything that fixes a family's trials but the seed and the trial number.
+/// Everything that determines a family's trials besides seed and trial number.
 struct FamilySetup {
   Family family = Family::t2;
   LayoutParameters layout;
   RobotParameters robot;
   SimulationParameters simulation;
-  std::shared_ptr<const CrowdRecording> crowd;  ///< of ped, which needs one; not among the fields
+  std::shared_ptr<const CrowdRecording> crowd;  ///< of ped, which requires one; not among the fields
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -108,8 +107,8 @@ inline constexpr std::uint64_t kDefaultSeed = 20240501;
 [[nodiscard]] FamilySetup family_setup(Family family);
 
 /// Draws the scene of one trial. Throws std::invalid_argument when parameters are out of range or the crowd
-/// of ped is missing, and std::runtime_error when a thousand attempts found no scene (too much for the place)
-/// or the recording has no such window.
+/// of ped is missing, and std::runtime_error when a thousand attempts found no scene (too many things for the
+/// area) or the recording has no such window.
 [[nodiscard]] Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial);
 
 }  // namespace spf::sim

@@ -132,9 +132,9 @@ TEST(Families, FieldHasEqualDensityAndGoalsInReach) {
     EXPECT_EQ(static_cast<int>(scenario.discs.size()), robots / 4);
     EXPECT_NEAR((scenario.border->high - scenario.border->low).x(), 5.0 * std::sqrt(robots) + 2.0, 1e-9);
     for (const RobotTask& task : scenario.robots) {
-      const double way = (task.goal_world - task.start.position_world).norm();
-      EXPECT_GE(way, 10.0);
-      EXPECT_LE(way, 30.0);
+      const double distance = (task.goal_world - task.start.position_world).norm();
+      EXPECT_GE(distance, 10.0);
+      EXPECT_LE(distance, 30.0);
     }
   }
 }
@@ -149,9 +149,9 @@ TEST(Families, RobotsStartAtRestFacingTheirGoals) {
     SCOPED_TRACE(name);
     if (family == Family::ped) continue;  // needs a recording: crowd_test.cpp
     for (const RobotTask& task : scene(family, 10000).robots) {
-      const Eigen::Vector2d way = task.goal_world - task.start.position_world;
+      const Eigen::Vector2d to_goal = task.goal_world - task.start.position_world;
       const Eigen::Vector2d facing{std::cos(task.start.heading), std::sin(task.start.heading)};
-      EXPECT_NEAR(facing.dot(way.normalized()), 1.0, 1e-12);
+      EXPECT_NEAR(facing.dot(to_goal.normalized()), 1.0, 1e-12);
     }
   }
 }

@@ -8,7 +8,7 @@
 namespace spf::sim {
 namespace {
 
-/// True when `point`, known to lie on the segment's line, lies between its ends.
+/// True when `point`, which must lie on the segment's line, lies between its ends.
 bool between_ends(const Eigen::Vector2d& point, const Segment& segment) {
   return std::min(segment.from.x(), segment.to.x()) <= point.x() &&
          point.x() <= std::max(segment.from.x(), segment.to.x()) &&

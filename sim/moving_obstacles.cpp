@@ -21,15 +21,15 @@ void reflect_at_border(const Box& border, ObstacleState& disc) {
   for (int axis = 0; axis < 2; ++axis) {
     const double low = border.low[axis] + disc.radius;
     const double high = border.high[axis] - disc.radius;
-    double& place = disc.position_world[axis];
+    double& coordinate = disc.position_world[axis];
     double& speed = disc.velocity_world[axis];
-    if (low > high) {  // wider than the field: it stays in the middle
-      place = 0.5 * (low + high);
-    } else if (place < low) {
-      place = std::min(2.0 * low - place, high);
+    if (low > high) {  // larger than the field: it stays in the middle
+      coordinate = 0.5 * (low + high);
+    } else if (coordinate < low) {
+      coordinate = std::min(2.0 * low - coordinate, high);
       speed = std::abs(speed);
-    } else if (place > high) {
-      place = std::max(2.0 * high - place, low);
+    } else if (coordinate > high) {
+      coordinate = std::max(2.0 * high - coordinate, low);
       speed = -std::abs(speed);
     }
   }
@@ -53,8 +53,7 @@ void push_out_of_box(const Box& box, ObstacleState& disc) {
   }
 }
 
-/// Likewise from a point of a static shape that must stay `gap` away (ours: the families have boxes
-/// only).
+/// Likewise from a point of a static shape, to a distance `gap` (our addition: the families have boxes only).
 void push_away_from(const Eigen::Vector2d& point, double gap, ObstacleState& disc) {
   const Eigen::Vector2d away = disc.position_world - point;
   const double distance = away.norm();

@@ -1,6 +1,6 @@
 // The moving discs of a trial (docs/protocol.md): every 0.1 s each draws its noise, moves, and is reflected
-// at the border and the static shapes; within a step it moves linearly. Nothing that robots do changes it.
-// Frame: world.
+// at the border and the static shapes; within a step it moves linearly. They do not react to robots. Frame:
+// world.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ class MovingObstacles {
 
   explicit MovingObstacles(const Scenario& scenario);
 
-  /// Draws the next step: where the discs will be kStep after now(). Two velocity and two position normals
-  /// for disc 0, 1, 2, ... whatever happens.
+  /// Draws the next step: where the discs will be kStep after now(). Always two velocity and two position
+  /// normals for disc 0, 1, 2, ...
   void advance();
 
   /// At the start of the current step. In *white* the velocity is the nominal one.

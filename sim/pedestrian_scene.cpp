@@ -22,17 +22,17 @@ template <class... Parts>
 }
 
 /// Robot 0, 4, 8, ... enters from the left, 1, 5, ... from the right, then from below, then from above; those
-/// of one side are spread evenly, one alone stands in the middle.
-RobotTask task_from_side(const Box& place, int robot, int robots) {
+/// of one side are spread evenly, a single one is in the middle.
+RobotTask task_from_side(const Box& extent, int robot, int robots) {
   const int side = robot % kSides;
   const int on_side = (robots - side + kSides - 1) / kSides;
   const double share = (robot / kSides + 0.5) / on_side;
-  const Eigen::Vector2d along = place.low + share * (place.high - place.low);
+  const Eigen::Vector2d along = extent.low + share * (extent.high - extent.low);
   Eigen::Vector2d start = along;
   Eigen::Vector2d goal = along;
   const int axis = side < 2 ? 0 : 1;
-  start[axis] = side % 2 == 0 ? place.low[axis] : place.high[axis];
-  goal[axis] = side % 2 == 0 ? place.high[axis] : place.low[axis];
+  start[axis] = side % 2 == 0 ? extent.low[axis] : extent.high[axis];
+  goal[axis] = side % 2 == 0 ? extent.high[axis] : extent.low[axis];
   RobotTask task;
   task.start = {start, std::atan2(goal.y() - start.y(), goal.x() - start.x())};
   task.goal_world = goal;
@@ -68,14 +68,14 @@ void place_among_people(const CrowdRecording& crowd, const LayoutParameters& lay
                                                   scenario.robot.max_speed, scenario.robot.max_acceleration));
   }
   const double nominal = crowd.begin() + trial * layout.window_spacing;
-  // Put off at most so far that the robots still cross among people.
+  // The latest start for which the robots still cross among people.
   const double latest = std::max(nominal, crowd.end() - slowest);
   Crowd people{crowd.samples(), crowd.longest_gap()};
   double begin = nominal;
   for (int shift = 0; !everybody_away(people, begin, scenario.robots);)
     if ((begin = nominal + kStartShift * ++shift) > latest)
       refuse("trial ", trial, " cannot begin: from ", nominal,
-             " s to the end of the recording somebody is always within ", kStartGap, " m of a robot's start");
+             " s to the end of the recording a person is always within ", kStartGap, " m of a robot's start");
   const double duration =
       scenario.simulation.trial.time_limit > 0.0 ? scenario.simulation.trial.time_limit : layout.window;
   scenario.simulation.trial.time_limit = duration;

@@ -1,6 +1,6 @@
-// The radio between robots: every message is heard after a delay by every other robot in range, unless that
-// link lost it. Whether a link loses the n-th message of a sender is drawn from (trial, link, n) alone, so
-// that nothing else changes it.
+// The radio between robots: every other robot in range receives a message after a delay, unless that link
+// loses it. Whether a link loses the n-th message of a sender is drawn from (trial, link, n) alone, so it
+// depends on nothing else.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,12 @@ class Radio {
  public:
   explicit Radio(const Scenario& scenario);
 
-  /// Hands a message to the radio at `time` [s], which must not go back; `position_world` is where the sender
-  /// is.
+  /// Sends a message at `time` [s], which must not decrease; `position_world` is the sender's position.
   void send(double time, const HeardMessage& message, const Eigen::Vector2d& position_world);
 
-  /// Calls deliver(receiver, message), with a HeardMessage, for everything due by `time`, in the
-  /// order sent. `robots` holds the positions of all robots in `grid`; range counts from the sender's place
-  /// when it sent to the receiver's place now.
+  /// Calls deliver(receiver, message), with a HeardMessage, for everything due by `time`, in the order sent.
+  /// `robots` holds the positions of all robots in `grid`; the range is measured from the sender's position
+  /// at sending to the receiver's present one.
   template <class Deliver>
   void deliver(double time, const UniformGrid& grid, const std::vector<Eigen::Vector2d>& robots,
                Deliver&& deliver) {
@@ -31,8 +30,8 @@ class Radio {
       const Flight& flight = flights_.front();
       grid.visit(flight.origin, parameters_.range, [&](int receiver) {
         if (receiver == flight.message->robot_id) return;
-        const Eigen::Vector2d& place = robots[static_cast<std::size_t>(receiver)];
-        if (!((place - flight.origin).norm() <= parameters_.range) || lost(flight, receiver)) return;
+        const Eigen::Vector2d& position = robots[static_cast<std::size_t>(receiver)];
+        if (!((position - flight.origin).norm() <= parameters_.range) || lost(flight, receiver)) return;
         deliver(receiver, flight.message);
       });
       flights_.pop_front();

@@ -24,7 +24,7 @@ void append_sides(const Box& box, std::vector<Segment>& segments) {
 
 }  // namespace
 
-/// One sweep under way; angles of beams in world.
+/// The sweep in progress; angles of beams in world.
 struct RangeSensor::Sweep {
   Eigen::Vector2d origin;
   double first_angle;  // [rad] of beam 0, in world
@@ -88,15 +88,15 @@ void RangeSensor::cast_segment(const Segment& segment, Sweep& sweep) const {
 }
 
 void RangeSensor::cast_disc(const Eigen::Vector2d& center, double radius, Sweep& sweep) const {
-  const Eigen::Vector2d way = center - sweep.origin;
-  const double distance = way.norm();
+  const Eigen::Vector2d offset = center - sweep.origin;
+  const double distance = offset.norm();
   if (distance - radius > range_) return;
   const bool inside = distance <= radius;
   const double half_span = inside ? kPi : std::asin(radius / distance);
-  const double middle = distance > 0.0 ? std::atan2(way.y(), way.x()) : 0.0;
+  const double middle = distance > 0.0 ? std::atan2(offset.y(), offset.x()) : 0.0;
   sweep.visit_arc(middle - half_span, 2.0 * half_span, [&](double& range, const Eigen::Vector2d& beam) {
-    const double along = way.dot(beam);
-    const double aside = cross(beam, way);
+    const double along = offset.dot(beam);
+    const double aside = cross(beam, offset);
     const double squared_half_chord = radius * radius - aside * aside;
     if (squared_half_chord < 0.0) return;
     const double half_chord = std::sqrt(squared_half_chord);

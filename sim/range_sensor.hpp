@@ -1,5 +1,5 @@
 // A planar range sensor at a robot's centre: exact ray casting against static shapes and discs. Every shape
-// is asked only for the beams that its angle as seen from the sensor spans. Frame: world; beams in the
+// is tested only against the beams within its angle as seen from the sensor. Frame: world; beams in the
 // sensor's body frame.
 #pragma once
 
@@ -21,8 +21,8 @@ class RangeSensor {
   /// The scenario's static shapes (the border's sides are walls), its number of beams and range.
   explicit RangeSensor(const Scenario& scenario);
 
-  /// One sweep from `pose_world` into `scan`, whose memory is used again. Beam i points at -pi + i * 2 pi /
-  /// beams in the body frame. A sensor inside a shape sees that shape's far side. Beams without return read
+  /// One sweep from `pose_world` into `scan`, whose memory is reused. Beam i points at -pi + i * 2 pi / beams
+  /// in the body frame. A sensor inside a shape sees that shape's far side. Beams without return read
   /// infinity.
   void sweep(const Pose2& pose_world, const std::vector<SeenDisc>& discs, RangeScan& scan) const;
 

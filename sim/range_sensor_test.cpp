@@ -41,8 +41,8 @@ TEST(RangeSensor, SeesADiscAsItsClosedFormAndNothingBeyondItsRange) {
   const double radius = 0.5;
   const Pose2 pose{{-1.0, 2.0}, 2.0};
   const double bearing = 2.9;  // in world, across the seam of the beams
-  const Eigen::Vector2d way{distance * std::cos(bearing), distance * std::sin(bearing)};
-  const RangeScan scan = sweep_of(scenario, pose, {{pose.position_world + way, radius}});
+  const Eigen::Vector2d offset{distance * std::cos(bearing), distance * std::sin(bearing)};
+  const RangeScan scan = sweep_of(scenario, pose, {{pose.position_world + offset, radius}});
   int returns = 0;
   for (std::size_t beam = 0; beam < scan.ranges.size(); ++beam) {
     const double off = angle_difference(beam_angle(scan, beam) + pose.heading, bearing);
@@ -58,7 +58,7 @@ TEST(RangeSensor, SeesADiscAsItsClosedFormAndNothingBeyondItsRange) {
   EXPECT_GE(returns, 19);  // asin(0.5 / 3) = 9.59 deg on either side, one beam a degree
 
   const RangeScan beyond =
-      sweep_of(scenario, pose, {{pose.position_world + 2.9 * way, radius}});  // surface at 8.2 m
+      sweep_of(scenario, pose, {{pose.position_world + 2.9 * offset, radius}});  // surface at 8.2 m
   for (const double range : beyond.ranges) EXPECT_TRUE(std::isinf(range));
 }
 
@@ -67,14 +67,14 @@ double marched(const Scenario& scenario, const std::vector<SeenDisc>& discs, con
                double angle) {
   const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
   for (double range = 0.0; range <= scenario.simulation.sensing.range; range += 1e-3) {
-    const Eigen::Vector2d place = origin + range * direction;
-    if (depth_inside(place, *scenario.border) < 0.0) return range;
+    const Eigen::Vector2d position = origin + range * direction;
+    if (depth_inside(position, *scenario.border) < 0.0) return range;
     for (const Box& box : scenario.boxes)
-      if (distance_to_box(place, box) == 0.0) return range;
+      if (distance_to_box(position, box) == 0.0) return range;
     for (const Disc& disc : scenario.discs)
-      if ((place - disc.center).norm() < disc.radius) return range;
+      if ((position - disc.center).norm() < disc.radius) return range;
     for (const SeenDisc& disc : discs)
-      if ((place - disc.position_world).norm() < disc.radius) return range;
+      if ((position - disc.position_world).norm() < disc.radius) return range;
   }
   return std::numeric_limits<double>::infinity();
 }

@@ -40,16 +40,16 @@ void take_nearer(RecordedClearance& clearance, double distance, int other) {
 
 void measure_clearances(const TrialFrame& view, std::size_t robot, double radius, RecordedRobot& recorded) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d& place = recorded.pose.position_world;
+  const Eigen::Vector2d& position = recorded.pose.position_world;
   recorded.to_dynamic = recorded.to_peer = {kNone, -1};
   for (const DynamicObstacle& obstacle : *view.dynamic_obstacles)
     take_nearer(recorded.to_dynamic,
-                (obstacle.motion.at(view.share) - place).norm() - radius - obstacle.radius, obstacle.id);
+                (obstacle.motion.at(view.share) - position).norm() - radius - obstacle.radius, obstacle.id);
   for (std::size_t j = 0; j < view.robots->size(); ++j)
     if (j != robot)
-      take_nearer(recorded.to_peer, ((*view.robots)[j].pose.position_world - place).norm() - 2.0 * radius,
+      take_nearer(recorded.to_peer, ((*view.robots)[j].pose.position_world - position).norm() - 2.0 * radius,
                   static_cast<int>(j));
-  recorded.to_static = {view.shapes->clearance(place, radius), -1};
+  recorded.to_static = {view.shapes->clearance(position, radius), -1};
 }
 
 std::string reason_text(const AgentStatus& status) {
@@ -143,7 +143,7 @@ void Recorder::note_status(double time, int robot, const AgentStatus& status,
   StopCause& last = last_reason_[static_cast<std::size_t>(robot)];
   if (status.reason == last) return;
   last = status.reason;
-  if (status.reason == StopCause::arrived) return;  // by the truth: arrival()
+  if (status.reason == StopCause::arrived) return;  // taken from the ground truth: arrival()
   const bool goes = status.reason == StopCause::none;
   recording_->events.push_back({time, robot, goes ? RecordedEvent::Kind::go : RecordedEvent::Kind::stop,
                                 reason_text(status), status.culprit, position_world});
@@ -166,7 +166,7 @@ void Recorder::note_cells(double time, int robot, const OccupancyMap& map) {
     if (!occupied.insert(key).second) continue;
     if (cells_[index].erase(key) == 0) update.added.push_back(node);
   }
-  for (const std::uint64_t key : cells_[index])  // what is left has been let go
+  for (const std::uint64_t key : cells_[index])  // what is left is no longer occupied
     update.removed.emplace_back(static_cast<int>(key % width), static_cast<int>(key / width));
   std::sort(update.removed.begin(), update.removed.end(),
             [](const Eigen::Vector2i& a, const Eigen::Vector2i& b) {

@@ -1,4 +1,4 @@
-// Writes a Recording while a trial runs.
+// Fills a Recording while a trial runs.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Everything that a replay of a trial shows, in frames of 0.1 s: the truth, what every robot believed and
-// planned, and what happened. Plain data. Frame: world, SI.
+// Everything that a replay of a trial shows, in frames of 0.1 s: the ground truth, every robot's beliefs and
+// plans, and events. Plain data. Frame: world, SI.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace spf::sim {
 
-/// Gap to the nearest thing of one kind, radii taken off; `other` is its id, -1 = none. Infinite when there
+/// Gap to the nearest thing of one kind, radii subtracted; `other` is its id, -1 = none. Infinite when there
 /// is none.
 struct RecordedClearance {
   double distance = 0.0;  ///< [m]
@@ -24,7 +24,7 @@ struct RecordedTrack {
 };
 
 struct RecordedRobot {
-  Pose2 pose;                                                ///< the truth
+  Pose2 pose;                                                ///< ground truth
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]
   AgentEstimate estimate;
   Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();    ///< [m/s] true rim speeds
@@ -69,11 +69,11 @@ struct RecordedPlan {
   double risk = 0.0;
   PlanStats stats;
   double plan_ms = 0.0;               ///< [ms] 0 without a clock
-  std::vector<RecordedPoint> points;  ///< of the committed trajectory, from now on
+  std::vector<RecordedPoint> points;  ///< of the committed trajectory, from the present on
   std::vector<RecordedCandidate> candidates;
 };
 
-/// Cells of a robot's own map, by their numbers in its grid.
+/// Cells of a robot's own map, by their indices in its grid.
 struct RecordedCells {
   double time = 0.0;  ///< [s]
   int robot = 0;
@@ -85,15 +85,15 @@ struct RecordedEvent {
   double time = 0.0;  ///< [s]
   int robot = -1;
   Kind kind = Kind::stop;
-  std::string text;                                          ///< the reason, or what was touched
-  int other = -1;                                            ///< id of the culprit, -1 = none
+  std::string text;                                          ///< the stop cause, or what was touched
+  int other = -1;                                            ///< id of what blocks or was touched, -1 = none
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m] of the robot
 };
 
 struct Recording {
   Scenario scenario;
   double frame_interval = 0.1;  ///< [s]
-  GridFrame map_frame;          ///< of the robots' maps: a cell is centred on its node
+  GridFrame map_frame;          ///< of the robots' maps; a cell is centred on its node
   std::vector<RecordedFrame> frames;
   std::vector<RecordedPlan> plans;    ///< by time
   std::vector<RecordedCells> cells;   ///< by time

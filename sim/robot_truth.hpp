@@ -1,4 +1,4 @@
-// Where a robot really is. Frame: world.
+// Ground truth of one robot. Frame: world.
 #pragma once
 
 #include "sim/contact.hpp"
@@ -10,11 +10,11 @@ struct RobotTruth {
   Pose2 pose;
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]
   Motion motion;                                             ///< over the last tick
-  bool arrived = false;                                      ///< has been at its goal once
-  bool wrecked = false;                                      ///< stands after a contact (AfterContact::wreck)
-  bool gone = false;                                         ///< has left the place (AfterArrival::leave)
+  bool arrived = false;                                      ///< has reached its goal once
+  bool wrecked = false;                                      ///< disabled by a contact (AfterContact::wreck)
+  bool gone = false;                                         ///< has left the scene (AfterArrival::leave)
 
-  /// Senses, drives and is there.
+  /// Senses, drives and is present.
   [[nodiscard]] bool active() const { return !wrecked && !gone; }
 };
 

@@ -42,8 +42,8 @@ class Report {
   std::vector<ScenarioProblem> found_;
 };
 
-/// What stands in the way of one place: the first of them is told, the others are counted, so that the
-/// problems of a scene are no more than its entries.
+/// What overlaps one position: the first of them is reported, the others are counted, so that a scene has no
+/// more problems than entries.
 class FirstOfMany {
  public:
   void add(double distance, const char* list, std::size_t index) {
@@ -101,23 +101,23 @@ void check_shapes(Report& report, const Scenario& scenario) {
 }
 
 /// A robot's centre must stay its radius away from everything static.
-void check_place(Report& report, const std::string& where, const Eigen::Vector2d& place,
-                 const Scenario& scenario) {
-  report.require_finite(where, place);
-  if (!place.allFinite()) return;
+void check_position(Report& report, const std::string& where, const Eigen::Vector2d& position,
+                    const Scenario& scenario) {
+  report.require_finite(where, position);
+  if (!position.allFinite()) return;
   const double radius = scenario.robot.radius;
-  if (scenario.border && depth_inside(place, *scenario.border) < radius)
-    report.add_point(where, place, "must lie inside the border by the radius ", radius, " m");
+  if (scenario.border && depth_inside(position, *scenario.border) < radius)
+    report.add_point(where, position, "must lie inside the border by the radius ", radius, " m");
   FirstOfMany inside;
   const auto require_gap = [&](const char* list, std::size_t index, double distance) {
     if (distance < radius) inside.add(distance, list, index);
   };
   for (std::size_t i = 0; i < scenario.boxes.size(); ++i)
-    require_gap("boxes", i, distance_to_box(place, scenario.boxes[i]));
+    require_gap("boxes", i, distance_to_box(position, scenario.boxes[i]));
   for (std::size_t i = 0; i < scenario.discs.size(); ++i)
-    require_gap("discs", i, (place - scenario.discs[i].center).norm() - scenario.discs[i].radius);
+    require_gap("discs", i, (position - scenario.discs[i].center).norm() - scenario.discs[i].radius);
   for (std::size_t i = 0; i < scenario.walls.size(); ++i)
-    require_gap("walls", i, distance_to_segment(place, scenario.walls[i]));
+    require_gap("walls", i, distance_to_segment(position, scenario.walls[i]));
   if (inside.any())
     report
         .add(where, "is ", inside.distance(), " m from ", inside.name(), ", less than the radius ", radius,
@@ -138,8 +138,8 @@ void check_robots(Report& report, const Scenario& scenario) {
   std::vector<Eigen::Vector2d> starts;
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     const RobotTask& task = scenario.robots[i];
-    check_place(report, entry("robots", i, ".start"), task.start.position_world, scenario);
-    check_place(report, entry("robots", i, ".goal"), task.goal_world, scenario);
+    check_position(report, entry("robots", i, ".start"), task.start.position_world, scenario);
+    check_position(report, entry("robots", i, ".goal"), task.goal_world, scenario);
     if (!std::isfinite(task.start.heading))
       report.add(entry("robots", i, ".start"), "heading must be finite");
     if (task.goal_heading && !std::isfinite(*task.goal_heading))

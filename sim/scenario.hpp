@@ -1,5 +1,4 @@
-// Ground truth of one trial: the place, what stands and moves in it, the robots and their tasks. Frame:
-// world, SI.
+// Ground truth of one trial: static shapes, dynamic obstacles, robots and their tasks. Frame: world, SI.
 #pragma once
 
 #include <Eigen/Core>
@@ -53,17 +52,17 @@ struct Scenario {
   int trial = 0;  ///< k of docs/protocol.md
   std::uint64_t seed = 20240501;
 
-  /// Bounds moving discs and robots: a centre stays inside by its radius; a robot that leaves has hit the
+  /// Bounds moving discs and robots: a centre stays inside by its radius; a robot that crosses it has hit the
   /// border.
   std::optional<Box> border;
   std::vector<Box> boxes;
   std::vector<Disc> discs;
   std::vector<Segment> walls;
   std::vector<Segment> seams;         ///< crossing one makes the observed pose jump (PoseNoiseParameters)
-  std::vector<ObstacleState> moving;  ///< discs that move, at t = 0, ids 0, 1, 2, ...
+  std::vector<ObstacleState> moving;  ///< moving discs at t = 0, ids 0, 1, 2, ...
   std::vector<CrowdSample> crowd;     ///< recorded people, sorted by time
   double crowd_radius = 0.25;         ///< [m] of each person
-  double crowd_gap = kUnlimited;      ///< [s] who has no sample for longer is away meanwhile
+  double crowd_gap = kUnlimited;      ///< [s] a person without a sample for longer is absent meanwhile
   std::vector<RobotTask> robots;
   RobotParameters robot;  ///< all robots of a fleet are alike
   SimulationParameters simulation;
@@ -74,14 +73,14 @@ struct ScenarioProblem {
   std::string where;  ///< the entry that breaks it: "robots[3].start"
   std::string what;   ///< "must be finite"
   std::string value;  ///< of the entry, where it is a point: "(1, 2)"
-  std::string other;  ///< another entry that it is about: "discs[2]", empty = none
+  std::string other;  ///< the other entry involved: "discs[2]", empty = none
 };
 /// "robots[3].start (1, 2) must be finite"
 [[nodiscard]] std::string to_text(const ScenarioProblem& problem);
 
 /// Everything that makes the scenario unusable: numbers out of range or not finite, boxes inside out, robots
-/// or goals inside an obstacle, each other or beyond the border. Of all that stands in the way of one place
-/// the first is told and the others are counted. Empty when it can run.
+/// or goals inside an obstacle, each other or beyond the border. Of all that overlaps one position the first
+/// is reported and the others are counted. Empty when it can run.
 [[nodiscard]] std::vector<ScenarioProblem> problems_of(const Scenario& scenario);
 
 /// Time of the fastest rest-to-rest motion over a straight distance [s]: a trapezoid of speed.

@@ -28,15 +28,15 @@ Sensing::Sensing(const Scenario& scenario)
   }
 }
 
-PoseMeasurement Sensing::measure_pose(int robot, double time, const Pose2& truth_world) {
+PoseMeasurement Sensing::measure_pose(int robot, double time, const Pose2& true_pose_world) {
   PoseChannel& channel = pose_channels_[static_cast<std::size_t>(robot)];
-  PoseMeasurement measurement{time, truth_world};
+  PoseMeasurement measurement{time, true_pose_world};
   const Eigen::Vector2d position_noise = channel.noise.normal2();
   const double heading_noise = channel.noise.normal();
-  measurement.pose_world.position_world +=
-      pose_noise_.position_sigma * position_noise + seam_offset(channel, time, truth_world.position_world);
+  measurement.pose_world.position_world += pose_noise_.position_sigma * position_noise +
+                                           seam_offset(channel, time, true_pose_world.position_world);
   measurement.pose_world.heading =
-      wrap_angle(truth_world.heading + pose_noise_.heading_sigma * heading_noise);
+      wrap_angle(true_pose_world.heading + pose_noise_.heading_sigma * heading_noise);
   return measurement;
 }
 
@@ -58,22 +58,22 @@ Eigen::Vector2d Sensing::seam_offset(PoseChannel& channel, double time, const Ei
   return channel.jump * remaining();
 }
 
-void Sensing::observe(int robot, const Pose2& truth_world, const Surroundings& surroundings,
+void Sensing::observe(int robot, const Pose2& true_pose_world, const Surroundings& surroundings,
                       Observation& observation) {
   observation.time = surroundings.time;
   observation.detections.clear();
-  detect_all(robot, truth_world.position_world, surroundings, observation);
+  detect_all(robot, true_pose_world.position_world, surroundings, observation);
   if (parameters_.map == MapKnowledge::sensed) {
     if (!observation.scan) observation.scan.emplace();
-    scan(robot, truth_world, surroundings, *observation.scan);
+    scan(robot, true_pose_world, surroundings, *observation.scan);
   } else {
     observation.scan.reset();
   }
   ++observations_[static_cast<std::size_t>(robot)];
 }
 
-/// Its noise is drawn from (robot, obstacle, number of the observation) alone, so that what else is in range,
-/// or has been, does not change it.
+/// Its noise is drawn from (robot, obstacle, number of the observation) alone, so that it does not depend on
+/// what else is or was in range.
 Detection Sensing::detect(int robot, int id, const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
                           double radius) const {
   Detection detection;
@@ -107,15 +107,16 @@ void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundi
     if (peer == robot || (position - from).norm() > reach) return;
     Detection detection =
         detect(robot, kPeerDetectionId + peer, position, Eigen::Vector2d::Zero(), robot_radius_);
-    detection.velocity_world.reset();  // seen, not told: the tracker has to find it
+    detection.velocity_world.reset();  // detected, not broadcast: the tracker has to estimate it
     observation.detections.push_back(detection);
   });
   std::sort(observation.detections.begin() + first_peer, observation.detections.end(),
             [](const Detection& a, const Detection& b) { return a.id < b.id; });
 }
 
-void Sensing::scan(int robot, const Pose2& truth_world, const Surroundings& surroundings, RangeScan& scan) {
-  const Eigen::Vector2d& from = truth_world.position_world;
+void Sensing::scan(int robot, const Pose2& true_pose_world, const Surroundings& surroundings,
+                   RangeScan& scan) {
+  const Eigen::Vector2d& from = true_pose_world.position_world;
   seen_.clear();
   for (const DynamicObstacle& obstacle : *surroundings.dynamic_obstacles)
     seen_.push_back({obstacle.motion.at(surroundings.share), obstacle.radius});
@@ -124,7 +125,7 @@ void Sensing::scan(int robot, const Pose2& truth_world, const Surroundings& surr
       if (peer != robot)
         seen_.push_back({(*surroundings.robots)[static_cast<std::size_t>(peer)], robot_radius_});
     });
-  range_sensor_.sweep(truth_world, seen_, scan);
+  range_sensor_.sweep(true_pose_world, seen_, scan);
   RandomStream& noise = scan_noise_[static_cast<std::size_t>(robot)];
   if (parameters_.range_sigma <= 0.0) return;
   for (double& range : scan.ranges) {

@@ -1,6 +1,5 @@
-// What the robots' sensors report of the truth (docs/protocol.md): own pose with its noise and seams,
-// moving obstacles in range, range scans. Every noise comes from a stream of its own role and robot. Frame:
-// world.
+// Simulated sensors of the robots (docs/protocol.md): own pose with noise and seams, moving obstacles in
+// range, range scans. Every kind of noise has a random stream of its own per robot. Frame: world.
 #pragma once
 
 #include <vector>
@@ -13,7 +12,8 @@
 
 namespace spf::sim {
 
-/// Detections of other robots (SensingParameters::peer_detection_range) carry this plus the robot's number.
+/// Detections of other robots (SensingParameters::peer_detection_range) have this plus the robot's number as
+/// id.
 inline constexpr int kPeerDetectionId = 1'000'000;
 
 /// The true surroundings at one instant.
@@ -30,10 +30,10 @@ class Sensing {
   explicit Sensing(const Scenario& scenario);
 
   /// The measured pose of a robot whose true pose is given. Call it once per robot and pose tick.
-  [[nodiscard]] PoseMeasurement measure_pose(int robot, double time, const Pose2& truth_world);
+  [[nodiscard]] PoseMeasurement measure_pose(int robot, double time, const Pose2& true_pose_world);
 
-  /// What the robot sees from its true pose, into `observation`, whose memory is used again.
-  void observe(int robot, const Pose2& truth_world, const Surroundings& surroundings,
+  /// What the robot senses from its true pose, into `observation`, whose memory is reused.
+  void observe(int robot, const Pose2& true_pose_world, const Surroundings& surroundings,
                Observation& observation);
 
  private:
@@ -51,7 +51,7 @@ class Sensing {
                                  const Eigen::Vector2d& velocity, double radius) const;
   void detect_all(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings,
                   Observation& observation);
-  void scan(int robot, const Pose2& truth_world, const Surroundings& surroundings, RangeScan& scan);
+  void scan(int robot, const Pose2& true_pose_world, const Surroundings& surroundings, RangeScan& scan);
 
   SensingParameters parameters_;
   PoseNoiseParameters pose_noise_;
@@ -62,7 +62,7 @@ class Sensing {
   std::vector<std::uint64_t> detection_seeds_;  // by robot
   std::vector<RandomStream> scan_noise_;        // by robot
   std::vector<std::uint64_t> observations_;     // made so far, by robot
-  std::vector<SeenDisc> seen_;                  // of the scan under way, kept for its memory
+  std::vector<SeenDisc> seen_;                  // of the current scan, kept for its memory
 };
 
 }  // namespace spf::sim

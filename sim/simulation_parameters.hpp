@@ -1,5 +1,5 @@
-// How a trial is run: what moves, what is sensed, how robots talk, when it ends. Units SI. Everything a
-// scenario file may set beside the geometry; docs/protocol.md gives the defaults.
+// How a trial is run: obstacle noise, sensing, radio, and when it ends. Units SI. Everything that a scenario
+// file may set besides the geometry; docs/protocol.md gives the defaults.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ enum class AfterContact {
 };
 enum class AfterArrival {
   stay,   ///< at its goal, and goes on dodging
-  leave,  ///< the place: it is gone
+  leave,  ///< the scene: the robot is gone
 };
 enum class TrackingMode {
   ideal,  ///< the robot is at its trajectory's point
@@ -177,7 +177,7 @@ struct TrialParameters {
           "ideal: the robot is at its trajectory's point; full: controller and drive");
     visit("after_contact", self.after_contact,
           "a contact ends the trial, leaves wrecks behind, or is counted and all go on");
-    visit("after_arrival", self.after_arrival, "robots stay at their goals, or leave the place");
+    visit("after_arrival", self.after_arrival, "robots stay at their goals, or leave the scene");
     visit("plant_rate", self.plant_rate, "Hz", Range{50.0, 5000.0},
           "steps of the plant and of the contact sweep");
     visit("computing_delay", self.computing_delay, "s", Range{0.0, 5.0},

@@ -182,18 +182,18 @@ TEST(Simulation, RefusesWhatCannotRunWithAllReasons) {
   }
 }
 
-/// From a place to the nearest surface of what a beam can have hit at about that time: a square, a robot, the
+/// From a position to the nearest surface that a beam can have hit at about that time: a square, a robot, the
 /// disc.
-double distance_to_anything(const Eigen::Vector2d& place, const Scenario& scenario, double time,
+double distance_to_anything(const Eigen::Vector2d& position, const Scenario& scenario, double time,
                             const Recording& recording) {
   double nearest = 1e9;
-  for (const Box& box : scenario.boxes) nearest = std::min(nearest, distance_to_box(place, box));
+  for (const Box& box : scenario.boxes) nearest = std::min(nearest, distance_to_box(position, box));
   for (const RecordedFrame& frame : recording.frames) {
     if (std::abs(frame.time - time) > 0.45) continue;  // a few sweeps make a cell occupied
     for (const RecordedRobot& robot : frame.robots)
-      nearest = std::min(nearest, (robot.pose.position_world - place).norm() - scenario.robot.radius);
+      nearest = std::min(nearest, (robot.pose.position_world - position).norm() - scenario.robot.radius);
     for (const RecordedDynamicObstacle& obstacle : frame.dynamic_obstacles)
-      nearest = std::min(nearest, (obstacle.state.position_world - place).norm() - obstacle.state.radius);
+      nearest = std::min(nearest, (obstacle.state.position_world - position).norm() - obstacle.state.radius);
   }
   return nearest;
 }
@@ -214,9 +214,9 @@ TEST(Simulation, RecordsWhatAReplayShows) {
   ASSERT_FALSE(recording.cells.empty());
   for (const RecordedCells& update : recording.cells)
     for (const Eigen::Vector2i& cell : update.added) {
-      const Eigen::Vector2d place =
+      const Eigen::Vector2d position =
           recording.map_frame.origin_world + recording.map_frame.resolution * cell.cast<double>();
-      EXPECT_LT(distance_to_anything(place, scenario, update.time, recording), 0.4);
+      EXPECT_LT(distance_to_anything(position, scenario, update.time, recording), 0.4);
     }
   for (std::size_t i = 1; i < recording.events.size(); ++i)
     EXPECT_LE(recording.events[i - 1].time, recording.events[i].time + 0.1);
@@ -235,7 +235,7 @@ TEST(RobotMap, KnowsTheStaticShapesOnlyWhenTheyAreKnown) {
   scenario.simulation.sensing.map = MapKnowledge::sensed;
   const OccupancyMap empty = robot_map(scenario, {});
   EXPECT_NEAR(empty.distance({2.0, 2.0}), empty.max_distance(), 1e-5);
-  EXPECT_NEAR(empty.distance({9.5, 0.0}), 0.5, 1e-5);  // the border is the place itself
+  EXPECT_NEAR(empty.distance({9.5, 0.0}), 0.5, 1e-5);  // the border is always known
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Those who look on while a trial runs: the recorder of replays, and meters of a caller's own. A trial that
-// is listened to goes the same way as any other. Frame: world, SI.
+// Observers of a running trial: the recorder of replays, and meters of the caller. Listeners do not change
+// the result of a trial. Frame: world, SI.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace spf::sim {
 
-/// The moment at which robots have thought and not yet moved; by robot unless said otherwise.
+/// State of a trial after the robots have planned and before they move; by robot unless said otherwise.
 struct TrialFrame {
   double time = 0.0;   ///< [s]
   double share = 0.0;  ///< of the obstacles' step
@@ -47,12 +47,12 @@ class TrialListener {
   virtual void frame(const TrialFrame&) {}
   /// At every pose: what a robot was given, and what it did.
   virtual void thought(double /*time*/, int /*robot*/, const RobotInput&, const RobotAction&) {}
-  /// A robot has planned, which took `plan_ms` [ms] (0 without a clock); what came of it is the agent's
+  /// A robot has planned, which took `plan_ms` [ms] (0 without a clock); the result is the agent's
   /// last_plan().
   virtual void planned(double /*time*/, const RobotAgent&, double /*plan_ms*/) {}
   /// Robots touched something, by time.
   virtual void contact(const Contact&) {}
-  /// A person of a recording, who does not react, walked into a robot that stood still.
+  /// A recorded person, who does not react, walked into a robot that stood still.
   virtual void hit_while_standing(const Contact&) {}
   virtual void arrived(double /*time*/, int /*robot*/, const Eigen::Vector2d& /*position_world*/) {}
 };

@@ -1,4 +1,4 @@
-// Adds up the figures of a trial while it runs (docs/protocol.md, Figures): those of the truth.
+// Adds up the ground-truth figures of a trial while it runs (docs/protocol.md, Figures).
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@ class TrialMeter {
  public:
   explicit TrialMeter(const Scenario& scenario);
 
-  /// The robots have moved along their `motion` and it is now `time` [s]. Sets `arrived` of those that
-  /// arrive.
+  /// To be called at `time` [s] after the robots have moved along their `motion`. Sets `arrived` of those
+  /// that arrive.
   void moved(double time, std::vector<RobotTruth>& robots);
   /// Numbers of the robots that arrived in the last call of moved().
   [[nodiscard]] const std::vector<int>& arrivals() const { return arrivals_; }
-  /// All positions now, into the digest.
+  /// Adds all present positions to the digest.
   void digest(const std::vector<RobotTruth>& robots, const std::vector<DynamicObstacle>& dynamic_obstacles);
 
-  /// Fills what was metered into the result; the trial ended at `time` [s].
+  /// Fills the figures into the result; the trial ended at `time` [s].
   void finish(double time, const std::vector<RobotTruth>& robots, const ContactMonitor& monitor,
               TrialResult& result);
 

@@ -1,4 +1,4 @@
-// What a trial came to (docs/protocol.md, Figures).
+// Result of a trial (docs/protocol.md, Figures).
 #pragma once
 
 #include <array>
@@ -40,13 +40,13 @@ struct RobotResult {
   bool arrived = false;
   bool wrecked = false;
   bool touched = false;              ///< had a contact that counts
-  bool in_time = false;              ///< arrived, no later than the trial's latest_arrival
+  bool in_time = false;              ///< arrived no later than the trial's latest_arrival
   double travel_time = 0.0;          ///< [s]
   double path_length = 0.0;          ///< [m] of the true path
   double travel_time_ratio = 0.0;    ///< [1] over the obstacle-free rest-to-rest optimum
   double path_length_ratio = 0.0;    ///< [1] over the straight line
   int plans = 0;                     ///< planning calls
-  int failed_plans = 0;              ///< of them, outcome other than success or goal_reached
+  int failed_plans = 0;              ///< those whose outcome is not success or goal_reached
   std::int64_t optimiser_calls = 0;  ///< L-BFGS runs (the paper's iterations)
   std::int64_t inner_iterations = 0;
   std::int64_t evaluations = 0;

@@ -3,7 +3,7 @@
 namespace spf::sim {
 
 UniformGrid::Cell UniformGrid::cell_of(const Eigen::Vector2d& point) const {
-  // Clamped so that a far or infinite place still has a cell (2^31 cells from the origin).
+  // Clamped so that a far or infinite position still has a cell (2^31 cells from the origin).
   const auto coordinate = [this](double value) {
     return static_cast<std::int64_t>(std::clamp(std::floor(value * inverse_size_), -0x1p31, 0x1p31));
   };

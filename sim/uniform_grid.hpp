@@ -1,5 +1,5 @@
-// Finds points near a place without asking all of them: cells of equal size, hashed, so that the extent of
-// the place does not matter. Built anew whenever the points have moved; keeps its memory.
+// Finds points near a position without testing all of them: cells of equal size, hashed, so that the extent
+// of the scene does not matter. Rebuilt whenever the points have moved; keeps its memory.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,21 +13,21 @@ namespace spf::sim {
 
 class UniformGrid {
  public:
-  /// cell_size [m] > 0: about the radius of the queries to come.
+  /// cell_size [m] > 0: about the radius of the queries.
   explicit UniformGrid(double cell_size) : inverse_size_{1.0 / cell_size} {}
 
   /// Replaces the points; their indices are what visit() reports.
   void assign(const std::vector<Eigen::Vector2d>& points);
 
-  /// Calls visit(index) once for every point within `radius` of `place` (and for some a little farther), in
-  /// an order that depends on the points alone.
+  /// Calls visit(index) once for every point within `radius` of `position` (and for some a little farther),
+  /// in an order that depends on the points alone.
   template <class Visit>
-  void visit(const Eigen::Vector2d& place, double radius, Visit&& visit) const {
+  void visit(const Eigen::Vector2d& position, double radius, Visit&& visit) const {
     if (cells_.empty()) return;
-    const Cell low = cell_of(place - Eigen::Vector2d::Constant(radius));
-    const Cell high = cell_of(place + Eigen::Vector2d::Constant(radius));
+    const Cell low = cell_of(position - Eigen::Vector2d::Constant(radius));
+    const Cell high = cell_of(position + Eigen::Vector2d::Constant(radius));
     const double span = static_cast<double>(high.x - low.x + 1) * static_cast<double>(high.y - low.y + 1);
-    if (span > static_cast<double>(cells_.size())) {  // fewer points than cells: ask them all
+    if (span > static_cast<double>(cells_.size())) {  // fewer points than cells: test them all
       for (std::size_t i = 0; i < cells_.size(); ++i)
         if (low.x <= cells_[i].x && cells_[i].x <= high.x && low.y <= cells_[i].y && cells_[i].y <= high.y)
           visit(static_cast<int>(i));

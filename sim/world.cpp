@@ -7,7 +7,7 @@
 namespace spf::sim {
 namespace {
 
-const Eigen::Vector2d kNowhere{1e12, 1e12};  // [m] neither seen nor in anybody's way
+const Eigen::Vector2d kNowhere{1e12, 1e12};  // [m] out of sight and out of the way
 
 /// Ticks between two events of a rate; at least one.
 long ticks_between(double plant_rate, double rate) {

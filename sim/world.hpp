@@ -1,6 +1,6 @@
 // The ground truth of one trial, tick by tick, for any host of robots: sim::Simulation runs agents in it, the
-// ROS simulator serves it over topics. Knows no agent. Deterministic: noise depends on the scenario alone, as
-// long as poses and observations are taken at the same ticks. Frame: world, SI.
+// ROS simulator serves it over topics. Independent of agents. Deterministic: noise depends on the scenario
+// alone, as long as poses and observations are taken at the same ticks. Frame: world, SI.
 #pragma once
 
 #include <vector>
@@ -19,38 +19,38 @@ class World {
   /// Throws std::invalid_argument with all reasons when the scenario cannot be used.
   explicit World(const Scenario& scenario);
 
-  // A tick has two halves, in the order of docs/protocol.md: begin_tick(); what is due is sensed and
-  // commanded; end_tick(). A host may go on after finished(); the world does not mind.
+  // One tick, in the order of docs/protocol.md: begin_tick(); whatever is due is sensed and commanded;
+  // end_tick(). A host may go on after finished().
   void begin_tick();
-  /// Moves the robots, sweeps for contacts, notes arrivals; then it is one tick later. Throws
+  /// Moves the robots, checks for contacts, records arrivals and advances the time by one tick. Throws
   /// std::runtime_error when a robot's position is no longer finite.
   void end_tick();
 
   [[nodiscard]] double time() const { return static_cast<double>(tick_) / plant_rate_; }           ///< [s]
   [[nodiscard]] double next_time() const { return static_cast<double>(tick_ + 1) / plant_rate_; }  ///< [s]
-  /// The dynamic obstacles begin a step of 0.1 s with this tick.
+  /// Whether the dynamic obstacles begin a step of 0.1 s with this tick.
   [[nodiscard]] bool step_due() const { return tick_ % step_ticks_ == 0; }
   [[nodiscard]] bool pose_due() const { return tick_ % pose_ticks_ == 0; }
   [[nodiscard]] bool observation_due() const { return observation_due_; }
   [[nodiscard]] double pose_interval() const {
     return static_cast<double>(pose_ticks_) / plant_rate_;
   }  ///< [s]
-  /// Share of the obstacles' step at which the tick begins, in [0, 1).
+  /// Share of the obstacles' step at the beginning of the tick, in [0, 1).
   [[nodiscard]] double share() const { return share_at(tick_); }
 
-  /// Call it once per robot in each tick in which it is due: every call draws its noise.
+  /// Call it once per robot in each tick in which it is due: every call draws noise.
   [[nodiscard]] PoseMeasurement measure_pose(int robot);
-  /// Likewise, into `observation`, whose memory is used again.
+  /// Likewise, into `observation`, whose memory is reused.
   void observe(int robot, Observation& observation);
 
-  /// Commanded wheel speeds [m/s], held until the next (TrackingMode::full).
+  /// Commanded wheel speeds [m/s], held until the next call (TrackingMode::full).
   void command(int robot, const Eigen::Vector3d& wheel_speeds) { commands_[index(robot)] = wheel_speeds; }
-  /// Where the robot is to be at the end of the tick, and its velocity then (TrackingMode::ideal).
+  /// Sets the robot's pose and velocity at the end of the tick (TrackingMode::ideal).
   void place(int robot, const Pose2& pose_world, const Eigen::Vector2d& velocity_world);
 
-  /// Contact ends the trial, or all have arrived or are wrecks, or time is up.
+  /// True when a contact ends the trial, all robots have arrived or are wrecks, or time is up.
   [[nodiscard]] bool finished() const;
-  /// How the trial stands, without what only a host of agents knows (plans, messages, timings).
+  /// The result so far, without what only a host of agents knows (plans, messages, timings).
   [[nodiscard]] TrialResult result() const;
 
   [[nodiscard]] const Scenario& scenario() const { return scenario_; }
@@ -70,7 +70,7 @@ class World {
     return grid_;
   }  ///< over positions(), since a pose tick
 
-  // What has happened, by time; arrivals are those of the last tick.
+  // Events by time; arrivals are those of the last tick.
   [[nodiscard]] const std::vector<Contact>& contacts() const { return monitor_.contacts(); }
   [[nodiscard]] const std::vector<Contact>& hits_while_standing() const {
     return monitor_.hits_while_standing();

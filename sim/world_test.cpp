@@ -164,9 +164,9 @@ TEST(World, AContactEndsTheTrialOrLeavesAWreck) {
     EXPECT_EQ(world.finished(), !wrecks);
     EXPECT_EQ(world.robots()[0].wrecked, wrecks);
     if (!wrecks) continue;
-    const Eigen::Vector2d place = world.robots()[0].pose.position_world;
+    const Eigen::Vector2d position = world.robots()[0].pose.position_world;
     run_until(world, world.time() + 0.5);
-    EXPECT_EQ(world.robots()[0].pose.position_world, place);
+    EXPECT_EQ(world.robots()[0].pose.position_world, position);
   }
 }
 

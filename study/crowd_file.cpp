@@ -16,7 +16,7 @@
 namespace spf {
 namespace {
 
-constexpr double kFastest = 15.0;  // [m/s] faster than anybody runs
+constexpr double kFastest = 15.0;  // [m/s] faster than any person runs
 constexpr double kFarthest = 1e5;  // [m]
 constexpr double kLatest = 1e7;    // [s]
 constexpr std::size_t kMostColumns = 100;
@@ -36,7 +36,7 @@ std::string shown(std::string_view text) {
   return std::string{text.substr(0, kLongestShown)} + (text.size() > kLongestShown ? "..." : "");
 }
 
-/// At most `most` of them, and one more when there are more.
+/// At most `most` fields, and one more when there are more.
 std::vector<std::string_view> fields_of(std::string_view line, std::size_t most) {
   std::vector<std::string_view> fields;
   while (true) {
@@ -47,12 +47,12 @@ std::vector<std::string_view> fields_of(std::string_view line, std::size_t most)
   }
 }
 
-/// Reads the lines one after the other; what is wrong with one does not hide the next.
+/// Reads line by line; a problem in one does not hide those of the next.
 class CrowdReader {
  public:
   CrowdReader(const std::string& name, InputProblems& problems) : name_{name}, problems_{problems} {}
 
-  /// False when the columns are not there.
+  /// False when a column is missing.
   bool header(std::string_view line) {
     ++line_;
     if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
@@ -131,12 +131,12 @@ class CrowdReader {
     if (!is_new) {
       const sim::CrowdSample& before = known->second.sample;
       const double duration = sample.time - before.time;
-      const double way = (sample.position_world - before.position_world).norm();
+      const double moved = (sample.position_world - before.position_world).norm();
       if (duration <= 0.0)
         return refuse(person + " stands twice at t_s = " + to_text(sample.time) + " (first in line " +
                       std::to_string(known->second.line) + ")");
-      if (way > kFastest * duration)
-        return refuse(person + " moves " + to_text(way) + " m in " + to_text(duration) +
+      if (moved > kFastest * duration)
+        return refuse(person + " moves " + to_text(moved) + " m in " + to_text(duration) +
                       " s: must be at most " + to_text(kFastest) + " m/s");
       known->second = {line_, sample};
     }
@@ -159,7 +159,7 @@ std::shared_ptr<const sim::CrowdRecording> crowd_from_text(std::string_view text
   InputProblems found;
   CrowdReader reader{name, found};
   bool first = true;
-  while (!text.empty() && !found.full()) {  // nobody reads of more lines
+  while (!text.empty() && !found.full()) {  // further problems are not shown
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -173,13 +173,13 @@ std::shared_ptr<const sim::CrowdRecording> crowd_from_text(std::string_view text
   if (first) found.add({name, 0, 0}, "is empty: a recording has the columns t_s, agent_id, x_m and y_m");
   if (!first && samples.empty() && found.empty())
     found.add({name, 0, 0}, "holds nobody: no line but the first");
-  for (const InputProblem& problem : found.kept()) problems.add(problem.place, problem.sentence);
+  for (const InputProblem& problem : found.kept()) problems.add(problem.location, problem.sentence);
   if (!found.empty()) return nullptr;
   return std::make_shared<const sim::CrowdRecording>(std::move(samples));
 }
 
 std::shared_ptr<const sim::CrowdRecording> read_crowd_file(const std::string& path,
-                                                           const SourcePlace& asked_at,
+                                                           const SourceLocation& asked_at,
                                                            InputProblems& problems) {
   constexpr std::uintmax_t kMostBytes = 128u << 20;
   const auto refuse = [&](const std::string& why) {

@@ -1,4 +1,4 @@
-// Recordings of people as CSV files: columns t_s, agent_id, x_m, y_m (in any order, others are left alone),
+// Recordings of people as CSV files: columns t_s, agent_id, x_m, y_m (in any order, others are ignored),
 // sorted by time. Frame: world of the recording, SI units.
 #pragma once
 
@@ -12,9 +12,9 @@
 namespace spf {
 
 /// Reads a recording. Every problem is collected with file, line, column name, value and limit; null when
-/// there is any. `asked_at` is where the file is asked for, for problems of the file as a whole.
+/// there is any. `asked_at` is the location that names the file, for problems of the file as a whole.
 [[nodiscard]] std::shared_ptr<const sim::CrowdRecording> read_crowd_file(const std::string& path,
-                                                                         const SourcePlace& asked_at,
+                                                                         const SourceLocation& asked_at,
                                                                          InputProblems& problems);
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] std::shared_ptr<const sim::CrowdRecording> crowd_from_text(std::string_view text,

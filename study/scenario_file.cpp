@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "config/parameter_text.hpp"
+#include "config/renamed_keys.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
 #include "sim/pedestrian_scene.hpp"
@@ -17,15 +18,15 @@
 namespace spf {
 namespace {
 
-/// The family of a document that does not name one: by what its robots are.
+/// The family of a document that names none, by the form of its robots.
 SceneFamily likely_family(const YamlNode& root) {
   const YamlNode* robots = root.find("robots");
   return robots != nullptr && robots->kind == YamlKind::list ? kExplicitScene : SceneFamily{sim::Family::t2};
 }
 
-/// Reads every key once: what defaults depend on comes first.
+/// Reads every key once, those on which defaults depend first.
 RunConfiguration read_keys(const YamlNode& root, const MethodTable& methods, InputProblems& problems) {
-  std::vector<std::string> keys;  // known when the family is
+  std::vector<std::string> keys;  // known once the family is
   FieldReader reader{root, "", keys, problems};
   RunConfiguration head;
   head.family = likely_family(root);
@@ -44,9 +45,9 @@ RunConfiguration read_keys(const YamlNode& root, const MethodTable& methods, Inp
 
 double heading_of(const RobotEntry& entry) {
   if (entry.heading) return *entry.heading;
-  const Eigen::Vector2d way = entry.goal - entry.start;
-  if (!way.allFinite()) return 0.0;
-  return std::atan2(way.y(), way.x());
+  const Eigen::Vector2d to_goal = entry.goal - entry.start;
+  if (!to_goal.allFinite()) return 0.0;
+  return std::atan2(to_goal.y(), to_goal.x());
 }
 
 sim::Scenario explicit_scenario(const RunConfiguration& config) {
@@ -71,13 +72,13 @@ std::string entry(const char* list, std::size_t index, const char* member) {
   return std::string{list} + "[" + std::to_string(index) + "]" + member;
 }
 
-/// Rules of a file beside those of the simulator: goals apart, since robots stay at theirs; discs inside the
+/// Rules of a file besides those of the simulator: goals apart, since robots stay at theirs; discs inside the
 /// border.
 std::vector<sim::ScenarioProblem> more_problems_of(const sim::Scenario& scenario) {
   std::vector<sim::ScenarioProblem> found;
   const double sum = 2.0 * scenario.robot.radius;
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
-    std::string first, nearest;  // of the goals that are too near; the others are counted
+    std::string first, nearest;  // of the goals that are too near; further ones are counted
     std::size_t others = 0;
     for (std::size_t j = 0; j < i; ++j) {
       const double gap = (scenario.robots[i].goal_world - scenario.robots[j].goal_world).norm();
@@ -106,8 +107,8 @@ std::vector<sim::ScenarioProblem> more_problems_of(const sim::Scenario& scenario
   return found;
 }
 
-/// Checks a scene that stands in the file. What was refused has left a default behind, about which nothing
-/// more is to be said.
+/// Checks an explicit scene. A refused value has been replaced by a default, about which nothing more is
+/// reported.
 void check_explicit(const YamlNode& root, const RunConfiguration& config, InputProblems& problems) {
   const InputProblems refused = problems;
   const sim::Scenario scenario = explicit_scenario(config);
@@ -118,19 +119,19 @@ void check_explicit(const YamlNode& root, const RunConfiguration& config, InputP
       continue;
     const YamlNode& node = nearest_node(root, problem.where);
     const bool has_value = node.kind == YamlKind::scalar || node.kind == YamlKind::list;
-    problems.add(node.place, problem.where + (has_value ? " = " + shown(node) : "") + " " + problem.what,
+    problems.add(node.location, problem.where + (has_value ? " = " + shown(node) : "") + " " + problem.what,
                  problem.where);
   }
 }
 
-/// Checks that a family draws a first trial that can run. Reported as one problem, where the file sizes the
+/// Checks that a family draws a first trial that can run. Reported as one problem, at the keys that size the
 /// family.
 void check_drawn(const YamlNode& root, const RunConfiguration& config, InputProblems& problems) {
   const char* key = root.find("robots") != nullptr ? "robots" : "family";
   const YamlNode* node = root.find(key);
   const auto refuse = [&](const std::string& why) {
     problems.add(
-        node == nullptr ? root.place : node->place,
+        node == nullptr ? root.location : node->location,
         std::string{key} + (node == nullptr ? "" : " = " + shown(*node)) + " cannot be drawn: " + why);
   };
   try {
@@ -148,22 +149,21 @@ bool has_recording(const RunConfiguration& config) {
   return config.family.drawn == sim::Family::ped;
 }
 
-/// Reads the recording that the configuration names. A path in the scenario file begins at that file, any
-/// other (of
-/// --set, of a campaign) at the working directory.
+/// Reads the recording that the configuration names. A path in the scenario file is relative to that file,
+/// any other (from --set or a campaign) to the working directory.
 void read_recording(const YamlNode& root, RunConfiguration& config, InputProblems& problems) {
-  const std::string& file = root.place.source;
+  const std::string& file = root.location.source;
   const YamlNode* node = root.find("crowd");
   if (node == nullptr || config.crowd.empty()) {
     if (node == nullptr || node->kind == YamlKind::scalar)
-      problems.add(node == nullptr ? root.place : node->place,
+      problems.add(node == nullptr ? root.location : node->location,
                    "crowd is missing: the family ped needs a recording, as in --set crowd=FILE.csv");
     return;
   }
   std::filesystem::path path{config.crowd};
-  if (path.is_relative() && node->place.source == file)
+  if (path.is_relative() && node->location.source == file)
     path = std::filesystem::path{file}.parent_path() / path;
-  config.recording = read_crowd_file(path.lexically_normal().string(), node->place, problems);
+  config.recording = read_crowd_file(path.lexically_normal().string(), node->location, problems);
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(path, error);
   if (!error) config.crowd = absolute.lexically_normal().string();
@@ -171,8 +171,12 @@ void read_recording(const YamlNode& root, RunConfiguration& config, InputProblem
 
 RunConfiguration read_document(YamlNode root, const std::vector<Setting>& settings,
                                const MethodTable& methods, InputProblems problems) {
-  if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to say more about
-  for (const Setting& setting : settings) apply_setting(root, setting.assignment, setting.source, problems);
+  if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to check further
+  rename_old_keys(root, OldKey::conflicts, problems);
+  for (const Setting& setting : settings) {
+    apply_setting(root, setting.assignment, setting.source, problems);
+    rename_old_keys(root, OldKey::replaces, problems);
+  }
   if (!require_map(root, problems)) problems.throw_if_any();
   RunConfiguration config = read_keys(root, methods, problems);
   if (has_recording(config)) read_recording(root, config, problems);

@@ -1,6 +1,6 @@
-// Scenario files: a family of the experiment protocol (docs/protocol.md) or a place drawn by hand, with
-// everything that differs from the defaults. Reading one gives a RunConfiguration, from which every trial's
-// ground truth and every robot's parameters follow. Frame: world, SI.
+// Scenario files: a family of the experiment protocol (docs/protocol.md) or an explicit scene, and everything
+// that differs from the defaults. Reading one gives a RunConfiguration, which determines every trial's ground
+// truth and every robot's parameters. Frame: world, SI.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@
 
 namespace spf {
 
-/// Where a scene comes from: drawn by a family of the simulator, or (none) written out in the file.
+/// Source of the scene: drawn by a family of the simulator, or (none) written out in the file.
 struct SceneFamily {
   std::optional<sim::Family> drawn;
 
@@ -45,7 +45,7 @@ struct EnumNames<SceneFamily> {
       scene_family_names(std::make_index_sequence<EnumNames<sim::Family>::values.size()>{});
 };
 
-/// Coordinates that nobody may use before the file has set them.
+/// Marks coordinates that the file has to set.
 inline const Eigen::Vector2d kUnsetPoint =
     Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 inline constexpr Range kCoordinate{-1e5, 1e5};
@@ -134,12 +134,12 @@ struct ExplicitScene {
   static void visit_fields(Self& self, Visitor&& visit) {
     visit.required("robots");
     visit.list("robots", self.robots, "the robots; robot 0 has the highest priority");
-    visit.optional_group("border", self.border, "the box that nobody may leave");
-    visit.list("boxes", self.boxes, "axis-parallel boxes that stand still");
-    visit.list("discs", self.discs, "discs that stand still");
+    visit.optional_group("border", self.border, "the box that robots and moving discs stay inside");
+    visit.list("boxes", self.boxes, "static axis-parallel boxes");
+    visit.list("discs", self.discs, "static discs");
     visit.list("walls", self.walls, "thin walls");
     visit.list("seams", self.seams, "lines at which an observed pose jumps (pose_noise.seam_sigma)");
-    visit.list("moving", self.moving, "moving discs; they bounce off everything that stands still");
+    visit.list("moving", self.moving, "moving discs; they bounce off the border and static shapes");
   }
 };
 
@@ -150,7 +150,7 @@ struct RunConfiguration {
   MethodChoice method;
   sim::LayoutParameters layout;  ///< of a drawn family
   std::string crowd;             ///< of ped: path of the recording, absolute once read
-  std::shared_ptr<const sim::CrowdRecording> recording;  ///< what stands there; not among the fields
+  std::shared_ptr<const sim::CrowdRecording> recording;  ///< the recording itself; not among the fields
   ExplicitScene scene;                                   ///< of an explicit one
   RobotParameters robot;
   sim::SimulationParameters simulation;
@@ -164,8 +164,8 @@ struct RunConfiguration {
     visit.group("robot", self.robot);
     visit_parameters(self, visit);
   }
-  /// Reading goes in another order, since defaults depend on what stands in the same file: the head names
-  /// family and method, these have a robot, all three have defaults for the rest.
+  /// Reading follows another order, since defaults depend on other keys of the file: the head names family
+  /// and method, these determine the default robot, and all three the defaults of the rest.
   template <class Self, class Visitor>
   static void visit_head(Self& self, Visitor&& visit);
   template <class Self, class Visitor>
@@ -176,19 +176,18 @@ struct RunConfiguration {
 
 /// The defaults of a family and a method.
 [[nodiscard]] RunConfiguration default_run_configuration(SceneFamily family, const MethodChoice& method);
-/// The same for another robot than the family's: defaults that follow the robot (ScaledUnit) are its own.
+/// The same for another robot than the family's: defaults that follow the robot (ScaledUnit) follow this one.
 [[nodiscard]] RunConfiguration default_run_configuration(SceneFamily family, const MethodChoice& method,
                                                          const RobotParameters& robot);
 
 /// One value written over the file's.
 struct Setting {
   std::string assignment;        ///< key.path=value
-  std::string source = "--set";  ///< where it stood, for messages
+  std::string source = "--set";  ///< where it comes from, for messages
 };
 
-/// Reads a file with settings written over it. Throws InputError with every problem: of
-/// form, of single values, and of the scene (robots inside obstacles, ...). `methods` are those that it may
-/// name.
+/// Reads a file and applies settings over it. Throws InputError with every problem: of form, of single
+/// values, and of the scene (robots inside obstacles, ...). `methods` are those that it may name.
 [[nodiscard]] RunConfiguration read_run_configuration(const std::string& path,
                                                       const std::vector<Setting>& settings = {},
                                                       const MethodTable& methods = {});
@@ -197,34 +196,32 @@ struct Setting {
                                                            const std::vector<Setting>& settings = {},
                                                            const MethodTable& methods = {});
 
-/// The file that gives this configuration, every key written out.
-/// With `explains`, each with a comment.
+/// The text of a file that gives this configuration, with every key written out. With `explains`, each has a
+/// comment.
 [[nodiscard]] std::string to_yaml_text(const RunConfiguration& config, bool explains = false);
 
 /// Ground truth of trial k. Throws std::runtime_error when a family finds no scene for its layout, or the
 /// recording has no such window.
 [[nodiscard]] sim::Scenario make_trial(const RunConfiguration& config, int trial);
 
-/// How many trials there are: the windows of a recording; as many as one likes otherwise.
+/// Number of trials: the windows of a recording; empty (unlimited) otherwise.
 [[nodiscard]] std::optional<int> trial_count(const RunConfiguration& config);
-/// Why trials `first` to `first + trials - 1` cannot all be run, empty when they can.
+/// Why trials `first` to `first + trials - 1` cannot all be run; empty when they can.
 [[nodiscard]] std::string trials_problem(const RunConfiguration& config, int first, int trials);
-/// Text that two configs share when all their trials are equal, wherever their recordings lie.
+/// Text that is equal for two configurations when all their trials are, wherever their recordings are stored.
 [[nodiscard]] std::string identity_text(const RunConfiguration& config);
 
 /// Parameters of every robot: `agent` with the configuration's robot. An observer whose pose_sigma or
-/// heading_sigma is 0 (the default, "as exact as the scenario says") is told the scenario's pose_noise; any
-/// other value counts as written, so that an observer can be misinformed on purpose.
+/// heading_sigma is 0 (the default, "as exact as the scenario says") is set to the scenario's pose_noise; any
+/// other value is used as written, so that an observer can be misinformed on purpose.
 [[nodiscard]] AgentParameters agent_parameters(const RunConfiguration& config);
 
 // ---- implementation of the field list
-// ------------------------------------------------------------------------------
 
 template <class Self, class Visitor>
 void RunConfiguration::visit_head(Self& self, Visitor&& visit) {
   visit.required("family");
-  visit("family", self.family,
-        "family of scenes (docs/protocol.md), or explicit: the scene stands in the file");
+  visit("family", self.family, "family of scenes (docs/protocol.md), or explicit: the scene is in the file");
   visit("seed", self.seed, "1", Range{0.0, 18446744073709551615.0}, "seed of everything random");
   visit("method", self.method, "how robots plan and track: a set of agent parameters");
 }

@@ -231,7 +231,7 @@ TEST(ScenarioFile, TellsOfManyRobotsInOnePlaceInFewWords) {
   std::string text = "family: explicit\nrobots:\n";
   for (int i = 0; i < 2000; ++i) text += "  - {start: [0, 0], goal: [2, 0]}\n";
   const std::string found = report(text);
-  // One for each start and goal but the first, of which a hundred are told.
+  // One for each start and goal but the first; a hundred of them are reported.
   const auto [lines, last] = size_of(found);
   EXPECT_EQ(lines, InputProblems::kMostProblems + 1);
   EXPECT_EQ(last, "(and 3898 more)");

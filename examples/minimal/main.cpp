@@ -1,6 +1,6 @@
-// The smallest host of a robot outside the project: find_package(spf), one target, one door
-// (RobotHost::step). The robot is moved as it plans; a real host would drive the wheels and tell the measured
-// pose (add_pose).
+// The smallest host of a robot outside the project: find_package(spf), one target, one class
+// (RobotHost::step). The robot is moved as it plans; a real host would drive the wheels and report the
+// measured pose (add_pose).
 #include <host/robot_host.hpp>
 
 #include <algorithm>
@@ -23,15 +23,15 @@ int main() {
   double least_clearance = 1e9;  // [m] between surfaces
   for (int tick = 0; tick < 3000 && robot.agent().status().reason != spf::StopCause::arrived; ++tick) {
     const double time = 0.01 * tick;
-    const Eigen::Vector2d place = robot.agent().committed().position(time);
+    const Eigen::Vector2d position = robot.agent().committed().position(time);
     const Eigen::Vector2d obstacle{5.0 - 0.6 * time, 0.1};
     if (tick % 10 == 0) robot.add_observation({{time, {{7, obstacle, {}, 0.4, 0.0}}, {}}, true}, time);
     robot.step(time);
 
-    const double to_box = (box_low - place).cwiseMax(place - box_high).cwiseMax(0.0).norm();
-    least_clearance = std::min({least_clearance, to_box - 0.3, (place - obstacle).norm() - 0.7});
+    const double to_box = (box_low - position).cwiseMax(position - box_high).cwiseMax(0.0).norm();
+    least_clearance = std::min({least_clearance, to_box - 0.3, (position - obstacle).norm() - 0.7});
     if (tick % 50 == 0)
-      std::cout << std::fixed << std::setprecision(2) << time << " s  " << place.transpose() << " m\n";
+      std::cout << std::fixed << std::setprecision(2) << time << " s  " << position.transpose() << " m\n";
   }
   const spf::StopCause cause = robot.agent().status().reason;
   std::cout << to_string(cause) << ", least clearance " << least_clearance << " m\n";

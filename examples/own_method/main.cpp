@@ -1,9 +1,8 @@
-// A method of one's own: the whole of it in this file, and the spf program that knows it beside its own.
+// A user-defined method, complete in this file, and an spf program that offers it besides the built-in ones.
 //
 //   own_method run scenarios/swap.yaml --method straight_ahead
-//
-// "Straight ahead" follows the guide at a steady speed and stops for whatever is in its way. It is a poor
-// method, which makes it a good example: it meets every duty of a planner in a few lines.
+// "Straight ahead" follows the guide at a constant speed and stops for any obstacle. It is a poor method but
+// a good example: it does all that a planner must do in a few lines.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -26,10 +25,10 @@ class StraightAhead final : public spf::Planner {
       spf::stand_instead(request, robot_, spf::PlanOutcome::invalid_request, result);
       return;
     }
-    // 1. Where to: along the guide, at a speed from which the robot can stop at the goal.
+    // 1. The velocity: along the guide, at a speed from which the robot can stop at the goal.
     const Eigen::Vector2d& here = request.head.position_world;
-    const double way = request.guide->cost_to_go(here);
-    const double speed = std::min(kSpeed * robot_.max_speed, std::sqrt(robot_.max_acceleration * way));
+    const double distance = request.guide->cost_to_go(here);
+    const double speed = std::min(kSpeed * robot_.max_speed, std::sqrt(robot_.max_acceleration * distance));
     const Eigen::Vector2d velocity = speed * request.guide->direction(here);
     // 2. The trajectory: take that velocity up, hold it until the next plan, brake to rest.
     result.trajectory = spf::Trajectory{request.time};
@@ -39,7 +38,7 @@ class StraightAhead final : public spf::Planner {
     append(end, velocity, kHold, result.trajectory);
     append(end, {0.0, 0.0}, std::max(speed / robot_.max_acceleration, kShortest), result.trajectory);
     result.action = spf::PlanAction::follow;
-    // 3. Whether that is a good plan is for the clearance check to say; if not, the robot stops.
+    // 3. The clearance check decides whether that is a good plan; if not, the robot stops.
     judge_.judge(request, result.trajectory.end_time() + kLookAhead, result);
     if (result.outcome == spf::PlanOutcome::unsafe) {
       result.risk = 1.0;

@@ -1,4 +1,4 @@
-// How a moving obstacle is spread into a safety probability field, and from where on it counts as dangerous
+// How a moving obstacle is spread into a safety probability field, and where the field counts as dangerous
 // (eq. 1-4).
 #pragma once
 

@@ -16,7 +16,7 @@ constexpr double kCenter = 1e-9;
 
 /// Smallest m such that the ellipse m * (along, across) around the origin holds the disc of radius `across`
 /// around (offset, 0). On the disc's rim, with u the cosine of the polar angle, m^2 = (offset + across u)^2 /
-/// along^2 + 1 - u^2, a concave parabola in u whose peak stands at u = across offset / (along^2 - across^2).
+/// along^2 + 1 - u^2, a concave parabola in u with its peak at u = across offset / (along^2 - across^2).
 double holding_mahalanobis(double along, double across, double offset) {
   const double excess = along * along - across * across;
   const double lever = across * offset;

@@ -10,7 +10,7 @@
 
 namespace spf {
 
-/// Curve of equal danger, for drawing.
+/// Contour of equal risk, for drawing.
 struct FieldEllipse {
   Eigen::Vector2d center_world = Eigen::Vector2d::Zero();  ///< [m]
   Eigen::Vector2d half_axes = Eigen::Vector2d::Zero();     ///< [m] along and across the velocity
@@ -22,8 +22,8 @@ class ProbabilityField {
  public:
   ProbabilityField() = default;
   /// Half axes a = r + speed * stretch_time / 2 and b = r (below eq. 3), where r is the obstacle's radius
-  /// plus the robot's, since the field is asked for the robot's centre. Margins are not part of it (d_saf of
-  /// eq. 10 is the one). A resting obstacle gives a round field, for which the missing direction does not
+  /// plus the robot's, since the field is evaluated at the robot's centre. It contains no margin (that is
+  /// d_saf of eq. 10). A resting obstacle gives a round field, for which the missing direction does not
   /// matter. Requires r > 0.
   ProbabilityField(const ObstacleState& obstacle, double robot_radius, const FieldParameters& parameters);
 
@@ -34,8 +34,8 @@ class ProbabilityField {
 
   /// Mahalanobis distance from the centre: 0 there, 1 on the ellipse with half axes a and b [1].
   [[nodiscard]] double mahalanobis(const Eigen::Vector2d& position_world) const;
-  /// Density divided by its peak, exp(-m^2 / 2), in [0, 1]. Thresholds use this or m, never U: its peak sinks
-  /// with speed and size, so a bound on U would overlook exactly the fast and the large obstacles
+  /// Density divided by its peak, exp(-m^2 / 2), in [0, 1]. Thresholds use this or m, never U: the peak of U
+  /// falls with speed and size, so a bound on U would overlook exactly the fast and the large obstacles
   /// (paper_notes 2).
   [[nodiscard]] double risk(const Eigen::Vector2d& position_world) const;
 
@@ -45,8 +45,8 @@ class ProbabilityField {
   [[nodiscard]] double threshold() const { return threshold_; }
 
   /// Unit vector along which the density falls fastest (eq. 11). At the centre, where eq. 11 is undefined,
-  /// the side of the velocity that `preferred_side_world` points to (any vector; left of the velocity when it
-  /// is neutral).
+  /// the side of the velocity to which `preferred_side_world` points (any vector; left of the velocity when
+  /// it favours neither).
   [[nodiscard]] Eigen::Vector2d escape_direction(const Eigen::Vector2d& position_world,
                                                  const Eigen::Vector2d& preferred_side_world) const;
 
@@ -56,7 +56,7 @@ class ProbabilityField {
                                             const Eigen::Vector2d& direction_world, double mahalanobis) const;
 
   /// Signed clearance from the ellipse `threshold` [m]: negative inside; never more than the true distance
-  /// outside. Changes by at most the distance moved, so a check may step by it.
+  /// outside. It changes by at most the distance moved, so a check may advance by as much.
   [[nodiscard]] double clearance(const Eigen::Vector2d& position_world, double threshold) const;
 
   [[nodiscard]] FieldEllipse ellipse(double mahalanobis) const;

@@ -36,7 +36,7 @@ void AxisFilter::predict(double dt, double velocity, const AxisNoise& noise) {
 
 AxisGain AxisFilter::kalman_gain(double measurement_sigma) const {
   const double innovation_variance = variance_ + measurement_sigma * measurement_sigma;
-  // Only when an exact value is measured again at the same instant.
+  // This happens only when an exact value is measured twice at one instant.
   if (innovation_variance <= 0.0) return {1.0, 0.0};
   return {variance_ / innovation_variance, covariance_ / innovation_variance};
 }

@@ -11,23 +11,23 @@ struct AxisNoise {
   double drift = 0.0;        ///< [m/s/sqrt(s)]
 };
 
-/// What an innovation is multiplied with.
+/// What an innovation is multiplied by.
 struct AxisGain {
   double value = 0.0;
   double disturbance = 0.0;  ///< [1/s]
 };
 
 /// Gain of eq. 17 for measurements `interval` [s] apart. The model is integrated exactly between measurements
-/// and both poles of the error stand at exp(-w interval), where eq. 17 puts them; for interval -> 0 these are
-/// l1 = 2 w and l2 = w^2 times the interval. Holds for any interval, so gaps need no special case.
+/// and both poles of the error lie at exp(-w interval), as in eq. 17; for interval -> 0 these are l1 = 2 w
+/// and l2 = w^2 times the interval. Holds for any interval, so gaps need no special case.
 [[nodiscard]] AxisGain eso_gain(double bandwidth, double interval);
 
-/// The two states with their covariance, which is kept (Joseph form) for any gain, optimal or not.
+/// The two states with their covariance, which is exact (Joseph form) for any gain, optimal or not.
 class AxisFilter {
  public:
   /// Starts at a measurement of the given variance with an unknown disturbance of the given deviation.
   void start(double value, double variance, double disturbance_sigma);
-  /// Moves to another value and variance; the disturbance is kept.
+  /// Sets value and variance anew; the disturbance is kept.
   void restart(double value, double variance);
 
   void predict(double dt, double velocity, const AxisNoise& noise);

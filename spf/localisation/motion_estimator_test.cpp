@@ -33,7 +33,7 @@ TEST(MotionEstimator, FollowsTheAppliedCommandThroughTheLag) {
               (1.0 - std::exp(-0.5 / kLag)) * wheels_for({0.8, 0.0, 0.0}).norm(), 1e-9);
 }
 
-// What a controller asked for does not matter: the robot was told to stand by someone else.
+// What a controller asked for does not matter: something else made the robot stop.
 TEST(MotionEstimator, BelievesTheCommandThatWasApplied) {
   MotionEstimator estimator{ObserverParameters{}, kinematics(), 0.0};
   estimator.observe(0.0, Pose2{});
@@ -62,7 +62,7 @@ TEST(MotionEstimator, SurvivesWhatIsNotFinite) {
   EXPECT_EQ(estimator.observe(0.0, Pose2{{kNan, 0.0}, 0.0}), MeasurementOutcome::invalid);
   EXPECT_FALSE(estimator.state().estimate.valid);
   estimator.observe(0.0, Pose2{{1.0, 2.0}, 0.5});
-  estimator.apply(0.1, {kNan, 1.0, 1.0});  // counts as standing
+  estimator.apply(0.1, {kNan, 1.0, 1.0});  // counts as stopped
   estimator.apply(kNan, wheels_for({1.0, 0.0, 0.0}));
   estimator.advance_to(kNan);
   EXPECT_TRUE(estimator.estimate(5.0).pose_world.position_world.allFinite());

@@ -13,12 +13,12 @@ constexpr double kHeadingVelocityNoise = 0.02;  // [rad/sqrt(s)] white noise of 
 constexpr double kHeadingDriftNoise = 0.02;     // [rad/s/sqrt(s)] random walk of the yaw disturbance
 constexpr double kGate = 6.0;  // [1] innovations beyond this many sigma (plus the floor) are outliers
 constexpr double kHeadingGateFloor = 0.1;  // [rad]
-constexpr int kReadmitCount = 5;           // outliers in a row that agree with each other are believed
+constexpr int kReinitialiseCount = 5;      // outliers in a row that agree with each other are believed
 constexpr std::size_t kHeading = 2;
 // Deviation of the unknown disturbance at the start [m/s], [rad/s]: a few centimetres a second of slip.
 constexpr double kInitialDisturbanceSigma = 0.05;
-// Outliers that do not even agree with each other are believed after this many times kReadmitCount: then the
-// declared noise is wrong, and a bad measurement is better than none for ever.
+// Outliers that do not agree with each other are accepted after this many times kReinitialiseCount: the
+// declared noise is then wrong, and a bad measurement is better than none for ever.
 constexpr int kInconsistentFactor = 4;
 constexpr double kLargestTurn = 1.0;  // [rad] of a sensor's jump
 
@@ -70,13 +70,13 @@ MeasurementOutcome PoseObserver::correct(const Pose2& measured_world) {
   const Triple difference =
       innovation(measured, {axes_[0].value(), axes_[1].value(), axes_[kHeading].value()});
   if (reinitialising_) return reinitialise_onto(difference);
-  // The gate of the first outlier is that of those that follow: it must not open while one waits at it.
+  // The gate is fixed at the first outlier: it must not widen with the variance while outliers are counted.
   if (outliers_in_a_row_ == 0)
     gate_variance_ = {axes_[0].variance(), axes_[1].variance(), axes_[kHeading].variance()};
   if (!within_gate(difference, gate_variance_)) return reject(measured);
   apply(difference);
   for (std::size_t i = 0; i < 3; ++i) {
-    // The exact measurement itself, not a rounding beside it.
+    // The exact measurement itself, without rounding.
     if (parameters_.kind == ObserverKind::kalman && noise_[i].measurement == 0.0)
       axes_[i].set_value(measured[i]);
   }
@@ -125,7 +125,8 @@ MeasurementOutcome PoseObserver::reject(const Triple& measured) {
     agreeing_outliers_ = 1;
     outlier_mean_ = measured;
   }
-  if (agreeing_outliers_ < kReadmitCount && outliers_in_a_row_ < kInconsistentFactor * kReadmitCount)
+  if (agreeing_outliers_ < kReinitialiseCount &&
+      outliers_in_a_row_ < kInconsistentFactor * kReinitialiseCount)
     return MeasurementOutcome::rejected;
 
   agreeing_outliers_ = std::max(agreeing_outliers_, 1);
@@ -135,7 +136,7 @@ MeasurementOutcome PoseObserver::reject(const Triple& measured) {
   jump_ = jump;
   for (std::size_t i = 0; i < 3 && !reinitialising_; ++i) {
     const double variance = noise_[i].measurement * noise_[i].measurement;
-    // An exact sensor is believed to the last measurement, a noisy one to the mean of those that agree.
+    // From an exact sensor the last measurement is taken, from a noisy one the mean of those that agree.
     axes_[i].restart(variance > 0.0 ? outlier_mean_[i] : measured[i], variance / agreeing_outliers_);
   }
   axes_[kHeading].set_value(wrap_angle(axes_[kHeading].value()));
@@ -150,8 +151,8 @@ bool PoseObserver::is_sensor_jump(const Triple& jump) const {
   return std::hypot(jump[0], jump[1]) <= parameters_.largest_jump && std::abs(jump[kHeading]) <= kLargestTurn;
 }
 
-// Mostly dead reckoning: the measured pose pulls with the settling time until it agrees with the estimate
-// again.
+// Mostly dead reckoning: the estimate converges to the measured pose with the settling time until the two
+// agree again.
 MeasurementOutcome PoseObserver::reinitialise_onto(const Triple& innovation) {
   constexpr double kSmoothing = 0.2;  // of about five measurements
   Triple change{};
@@ -159,7 +160,7 @@ MeasurementOutcome PoseObserver::reinitialise_onto(const Triple& innovation) {
   if (within_gate(change, gate_variance_)) {
     for (std::size_t i = 0; i < 3; ++i) jump_[i] += kSmoothing * change[i];
   } else {
-    if (++outliers_in_a_row_ < kReadmitCount) return MeasurementOutcome::rejected;
+    if (++outliers_in_a_row_ < kReinitialiseCount) return MeasurementOutcome::rejected;
     jump_ = innovation;  // it has jumped again
   }
   outliers_in_a_row_ = 0;

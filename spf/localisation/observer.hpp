@@ -1,5 +1,5 @@
-// The pose observer (eq. 17): where the robot is and what pushes it, from measured poses and the motion that
-// was commanded. Run it at the rate of the measurements and feed it the command really applied, after
+// The pose observer (eq. 17): the robot's pose and the disturbance of its velocity, from measured poses and
+// the commanded motion. Run it at the rate of the measurements and feed it the command as applied, after
 // saturation. With exact measurements (sigma 0) the default observer reports the measurement itself. Frame:
 // world.
 #pragma once
@@ -19,16 +19,16 @@ struct StateEstimate {
   Pose2 pose_world;
   Eigen::Vector3d disturbance_world =
       Eigen::Vector3d::Zero();     ///< [m/s, m/s, rad/s] motion beyond the command
-  double position_variance = 0.0;  ///< [m^2] per axis, as the noise levels imply
+  double position_variance = 0.0;  ///< [m^2] per axis, from the noise levels
   double heading_variance = 0.0;   ///< [rad^2]
-  double age = 0.0;                ///< [s] predicted since a measurement was used
+  double age = 0.0;                ///< [s] since the last measurement that was used
 };
 
 enum class MeasurementOutcome {
   used,
   rejected,       ///< an outlier
-  reinitialised,  ///< outliers that agree with each other: the estimate jumps to them, or begins to follow
-                  ///< them
+  reinitialised,  ///< outliers that agree with each other: the estimate jumps to them, or begins to
+                  ///< converge to them
   invalid,        ///< not a number, ignored
 };
 
@@ -37,7 +37,7 @@ class PoseObserver {
   /// Throws std::invalid_argument on parameters out of range.
   explicit PoseObserver(const ObserverParameters& parameters);
 
-  /// Advances by dt >= 0 [s] with the motion applied meanwhile. Bridges gaps of any length; before the first
+  /// Advances by dt >= 0 [s] with the motion applied during it. Bridges gaps of any length; before the first
   /// measurement there is nothing to advance. Input that is not finite counts as standing still.
   void predict(double dt, const Eigen::Vector3d& applied_twist_world);
   /// Takes in a pose measured now.
@@ -64,12 +64,13 @@ class PoseObserver {
   std::array<AxisFilter, 3> axes_;
   bool started_ = false;
   double since_measurement_ = 0.0;  // [s]
-  // Outliers in a row: their mean, carried along with the commanded motion, while they agree.
+  // Consecutive outliers: their mean, propagated with the commanded motion, while they agree.
   Triple outlier_mean_{};
   int agreeing_outliers_ = 0;
   int outliers_in_a_row_ = 0;
-  Triple gate_variance_{};  // of the estimate when the first of them came
-  // While a jump of the measured pose is followed slowly: what it is still ahead of the estimate, smoothed.
+  Triple gate_variance_{};  // of the estimate at the first of them
+  // During slow convergence to a jump of the measured pose: the remaining difference to the estimate,
+  // smoothed.
   bool reinitialising_ = false;
   Triple jump_{};
 };

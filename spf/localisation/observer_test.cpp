@@ -251,7 +251,7 @@ TEST(PoseObserver, BelievesAJumpThatStays) {
   }
 }
 
-/// A robot on a straight way whose sensor jumps at t = 1 s and comes back within `decay` seconds (for ever:
+/// A robot on a straight path whose sensor jumps at t = 1 s and comes back within `decay` seconds (for ever:
 /// 0). Returns the largest error of the estimate on x [m] from then until 3 s after.
 double error_at_seam(const ObserverParameters& parameters, double jump, double decay) {
   PoseObserver observer{parameters};

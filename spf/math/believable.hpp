@@ -1,5 +1,5 @@
-// Numbers from outside - sensors, peers, messages - are believed up to a size of which squares, products and
-// sums over a trajectory are still numbers. In SI units nothing on the ground comes near it.
+// Largest size of a number from outside (sensors, peers, messages) that is accepted: its squares, products
+// and sums over a trajectory are still finite. In SI units nothing on the ground comes near it.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@ namespace spf {
 
 inline constexpr double kLargestBelieved = 1e9;
 
-/// Finite, and of a size that can be reckoned with.
+/// Finite, and small enough to compute with.
 [[nodiscard]] inline bool believable(double number) {
   return std::abs(number) <= kLargestBelieved;  // false for NaN
 }

@@ -81,7 +81,7 @@ LbfgsOutcome Lbfgs::iterate(const Problem& problem) {
   }
 }
 
-/// False when cost or gradient is not finite. The hook's wish is in signal_.
+/// False when cost or gradient is not finite. The hook's answer is in signal_.
 bool Lbfgs::evaluate(const Problem& problem, Iterate& at) {
   const Point point = at.point.head(dimension_);
   at.cost = problem.cost(problem.callables, point, at.gradient.head(dimension_));
@@ -95,8 +95,8 @@ bool Lbfgs::gradient_is_small() const {
          current_.gradient.head(dimension_).lpNorm<Eigen::Infinity>() <= parameters_.gradient_tolerance;
 }
 
-/// Two-loop recursion; falls back to the steepest descent when the result does not descend. Returns
-/// the slope along the direction.
+/// Two-loop recursion; falls back to steepest descent when the result does not descend. Returns the slope
+/// along the direction.
 double Lbfgs::choose_direction() {
   const int n = dimension_;
   const int memory = parameters_.memory;

@@ -21,7 +21,7 @@ struct LbfgsParameters {
   int past = 3;                      ///< [1] iterations over which progress is judged; 0 = never
   double delta = 1e-2;       ///< [1] stops when the cost fell by less than this share over `past` iterations
   int max_iterations = 200;  ///< [1]
-  int max_evaluations = 2000;         ///< [1] the deadline, counted so that results repeat
+  int max_evaluations = 2000;         ///< [1] the deadline, in evaluations so that results repeat
   int max_line_search = 64;           ///< [1] evaluations in one line search
   double sufficient_decrease = 1e-4;  ///< [1] Armijo constant
   double curvature = 0.9;             ///< [1] weak Wolfe constant, above sufficient_decrease
@@ -78,7 +78,7 @@ struct LbfgsResult {
   int evaluations = 0;  ///< of cost and gradient together
 };
 
-/// What the hook wants after an evaluation.
+/// What the hook asks for after an evaluation.
 enum class LbfgsSignal { proceed, cancel };
 
 /// Owns the memory of the method. Nothing allocates after construction (unless the cost does).

@@ -392,7 +392,7 @@ double evaluate_rosenbrock(void*, const lbfgsfloatval_t* x, lbfgsfloatval_t* gra
 }
 
 TEST(Lbfgs, NeedsNotManyMoreEvaluationsThanAnotherImplementation) {
-  // liblbfgs with the More-Thuente search on a smooth problem, which is its home ground.
+  // liblbfgs with the More-Thuente search on a smooth problem, which it is made for.
   RandomStream random{7};
   int ours = 0;
   int theirs = 0;

@@ -18,19 +18,19 @@ struct Range {
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
 };
 
-/// What a default grows with from robot to robot (spf/robot/robot_scale.hpp). A value that somebody sets is
-/// taken as it is written.
+/// What a default scales with from robot to robot (spf/robot/robot_scale.hpp). A value that is set explicitly
+/// is taken as written.
 enum class Scale {
   size,                ///< radius of the robot
   stopping_distance,   ///< distance within which it can turn or stop
   speed,               ///< its speed
-  time,                ///< time in which it can get out of the way
+  time,                ///< time in which it can stop or clear its own footprint
   area,                ///< size squared
   velocity_diffusion,  ///< speed^2 / time
   position_diffusion,  ///< stopping_distance^2 / time
 };
 
-/// A unit whose defaults follow the robot; stands in a field list where a unit's name does.
+/// A unit whose defaults follow the robot; used in a field list in place of a unit's name.
 struct ScaledUnit {
   const char* name;
   Scale scale;

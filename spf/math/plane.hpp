@@ -5,7 +5,7 @@
 
 namespace spf {
 
-/// The vector turned by a quarter to the left.
+/// The vector rotated by 90 deg counterclockwise.
 [[nodiscard]] inline Eigen::Vector2d left_of(const Eigen::Vector2d& v) {
   return {-v.y(), v.x()};
 }

@@ -1,6 +1,6 @@
 // Real roots of a small polynomial in an interval: between two neighbouring roots of the derivative the
-// polynomial is monotone, so one safeguarded Newton search settles each stretch; the derivative's roots come
-// the same way. Never allocates. Coefficients are in ascending powers.
+// polynomial is monotone, so one safeguarded Newton search settles each stretch; the derivative's roots are
+// found likewise. Never allocates. Coefficients are in ascending powers.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ template <std::size_t Count>
 }
 
 /// Roots in ascending order. A polynomial of degree d has d of them; more than Capacity can only come from
-/// rounding noise of a polynomial that is zero all over, and are dropped.
+/// rounding noise of a polynomial that is zero all over, and is dropped.
 template <std::size_t Capacity>
 class RootList {
  public:
@@ -69,8 +69,8 @@ template <std::size_t Count>
   return x;
 }
 
-/// Every place in [low, high] where the polynomial changes sign, and the zeros that a search meets exactly. A
-/// root that only touches zero may be missing: at such a place the antiderivative has no extremum, which is
+/// Every point in [low, high] where the polynomial changes sign, and the zeros that a search meets exactly. A
+/// root that only touches zero may be missing: at such a point the antiderivative has no extremum, which is
 /// what the callers want to know. Needs low <= high.
 template <std::size_t Count>
 [[nodiscard]] RootList<Count> polynomial_roots(const std::array<double, Count>& coefficients, double low,

@@ -36,8 +36,8 @@ TEST(PolynomialRoots, FindsAllRootsInsideAndNoneOutside) {
   for (int i = 0; i < 500; ++i) {
     SCOPED_TRACE(i);
     std::array<double, 6> planted{};  // spread out, else they are ill-conditioned: 0.3 apart at least
-    double place = -1.5;
-    for (double& root : planted) root = (place += random.uniform(0.3, 0.8));
+    double at = -1.5;
+    for (double& root : planted) root = (at += random.uniform(0.3, 0.8));
     const std::array<double, 7> coefficients = from_roots(planted);
     std::vector<double> expected;
     for (const double root : planted)

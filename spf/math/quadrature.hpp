@@ -1,5 +1,5 @@
-// Integrals of scalar functions by Gauss-Legendre panels, halved where they do not yet agree with themselves.
-// The number of evaluations is bounded whatever the function is. Never allocates.
+// Integrals of scalar functions by Gauss-Legendre panels, halved until they agree with their halves. The
+// number of evaluations is bounded whatever the function is. Never allocates.
 #pragma once
 
 #include <array>
@@ -30,13 +30,13 @@ class Quadrature {
   static constexpr int kPanelEvaluations = 10;
 
   /// A panel is halved until its two halves together differ from it by no more than `tolerance` (absolute, in
-  /// the integral's unit), at most max_depth times, and only as long as max_panels panels have not been
-  /// evaluated. What is left unrefined then counts as it is, so there is always a value.
+  /// the integral's unit), at most max_depth times and within a budget of max_panels panels. Panels left
+  /// unrefined then count as they are, so there is always a value.
   Quadrature(double tolerance, int max_depth, int max_panels)
       : tolerance_{tolerance}, max_depth_{max_depth}, panels_left_{max_panels} {}
 
   /// The integral of function(x) over [from, to]. Several calls share the budget; each costs one panel at
-  /// least, even when nothing of it is left.
+  /// least, even when the budget is spent.
   template <class Function>
   [[nodiscard]] double integrate(Function&& function, double from, double to) {
     --panels_left_;

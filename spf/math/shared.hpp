@@ -1,4 +1,4 @@
-// A value that many hold and nobody changes.
+// An immutable value with many owners.
 #pragma once
 
 #include <memory>
@@ -6,15 +6,15 @@
 
 namespace spf {
 
-/// Reads like a `const T`; copying it shares the one T in memory. What a robot says is heard by a hundred
+/// Reads like a `const T`; copying it shares the one T in memory. A robot's broadcast reaches a hundred
 /// others, each of which would otherwise keep kilobytes of the same numbers. Making one from a T allocates;
 /// copies may be held and read on different threads.
 template <class T>
 class Shared {
  public:
-  Shared(T value)  // NOLINT(google-explicit-constructor): a Shared<T> stands where a T does
+  Shared(T value)  // NOLINT(google-explicit-constructor): a Shared<T> is used like a T
       : value_{std::make_shared<const T>(std::move(value))} {}
-  /// A part of a shared whole, which lives as long as any part of it is held.
+  /// A part of a shared whole; the whole lives as long as any part of it is held.
   template <class Whole>
   Shared(const Shared<Whole>& whole, const T& part) : value_{whole.value_, &part} {}
 

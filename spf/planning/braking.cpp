@@ -6,7 +6,7 @@
 namespace spf {
 namespace {
 
-constexpr double kStandingTime = 1.0;   // [s] length of a standing trajectory
+constexpr double kRestTime = 1.0;       // [s] duration of a trajectory at rest
 constexpr double kRestSpeed = 1e-9;     // [m/s]
 constexpr double kShortestRamp = 0.05;  // [s] keeps pieces well conditioned
 
@@ -48,7 +48,7 @@ Trajectory braking_trajectory(const FlatState& head, const HeadingState& heading
   const Eigen::Vector2d to_lose = head.velocity_world + 0.5 * ramp_in * head.acceleration_world;
   const double amount = to_lose.norm();
   if (head.velocity_world.norm() < kRestSpeed && head_acceleration < kRestSpeed)
-    return Trajectory::standing(head.position_world, start_time, kStandingTime, turn);
+    return Trajectory::standing(head.position_world, start_time, kRestTime, turn);
   const double ramps = 0.5 * (ramp_in + ramp_out);
   const double hold = std::max(0.0, amount / limit - ramps);
   const Eigen::Vector2d braking = -to_lose / (ramps + hold);

@@ -1,4 +1,4 @@
-// The way to rest from any state: always at hand, checked like any plan, broadcast when used. Frame: world.
+// Braking to rest from any state: always available, checked like any plan, broadcast when used. Frame: world.
 #pragma once
 
 #include "spf/robot/robot_parameters.hpp"
@@ -10,7 +10,7 @@ namespace spf {
 /// constant braking one of at most max_acceleration, holds, and fades out linearly; ramps take about
 /// max_acceleration / max_jerk. Straight when the head's acceleration lies along its velocity. The
 /// acceleration never exceeds the larger of the head's and max_acceleration. The heading stops too. A head at
-/// rest gives a standing trajectory.
+/// rest gives a trajectory at rest.
 [[nodiscard]] Trajectory braking_trajectory(const FlatState& head, const HeadingState& heading,
                                             double start_time, const RobotParameters& robot);
 

@@ -30,7 +30,8 @@ TEST(Braking, EndsAtRestWithinTheLimits) {
     EXPECT_LT(last.velocity(last.duration).norm(), 1e-12);
     EXPECT_LT(last.acceleration(last.duration).norm(), 1e-12);
     EXPECT_LE(braking.max_acceleration(), robot.max_acceleration + 1e-9);
-    // Within the time and way of a constant deceleration plus the ramps' and what the head still accelerates.
+    // Within the time and distance of a constant deceleration plus the ramps' and what the head still
+    // accelerates.
     const double speed = head.velocity_world.norm();
     EXPECT_LE(braking.duration(), speed / robot.max_acceleration + 0.25);
     EXPECT_LE((braking.tail_position() - head.position_world).norm(),

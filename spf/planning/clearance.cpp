@@ -10,9 +10,10 @@ namespace spf {
 namespace {
 
 constexpr double kSlack =
-    1e-4;  // [m] by which a distance that is too small already may shrink (rounding, sampling)
+    1e-4;  // [m] tolerated decrease of a distance that is too small already (rounding, sampling)
 
-/// What approaches whom, and how fast at most.
+/// What approaches whom, and how fast at most: one check of the trajectory against one obstacle, peer or the
+/// map.
 struct Subject {
   ConflictKind kind;
   int id;
@@ -20,7 +21,7 @@ struct Subject {
   double until;           // [s]
 };
 
-/// Where a walk ended.
+/// Where a sweep ended.
 struct WalkEnd {
   bool conflict = false;
   double time = 0.0;       // [s]
@@ -28,9 +29,9 @@ struct WalkEnd {
   double least = std::numeric_limits<double>::infinity();
 };
 
-/// Walks along the trajectory; `clearance(time, position)` is a signed distance that changes no faster than
+/// Sweeps along the trajectory; `clearance(time, position)` is a signed distance that changes no faster than
 /// approach_speed. A conflict is a clearance below `floor`, or below 0 once it has been above; a start below
-/// the floor lowers it. An infinite floor below only looks for the least clearance.
+/// the floor lowers it. A floor of minus infinity only measures the least clearance.
 template <class ClearanceAt>
 WalkEnd walk(const Trajectory& trajectory, double from, const Subject& subject, double floor,
              const ClearanceAt& clearance) {
@@ -60,7 +61,8 @@ WalkEnd walk(const Trajectory& trajectory, double from, const Subject& subject, 
   return end;
 }
 
-/// Checks against one thing: the plain rule first, and after a conflict "no worse than the alternative".
+/// One check against one subject: the plain rule first; after a conflict the rule "no worse than the
+/// alternative".
 template <class ClearanceAt>
 void check_against(const Trajectory& trajectory, const ClearanceWindow& window, Subject subject,
                    double least_floor, const ClearanceAt& clearance, ClearanceReport& report) {
@@ -100,8 +102,8 @@ void ClearanceModel::prepare(const WorldSnapshot& world, double time, PeerSelect
   regions_.clear();
   if (world.peers != nullptr) {
     for (const Peer& peer : *world.peers) {
-      const bool stands = peer.state != PeerState::moving || peer.expired;
-      if (selection == PeerSelection::all || stands || goes_first(peer.rank(), world.rank())) add_peer(peer);
+      const bool stopped = peer.state != PeerState::moving || peer.expired;
+      if (selection == PeerSelection::all || stopped || goes_first(peer.rank(), world.rank())) add_peer(peer);
     }
   }
   if (world.tracks != nullptr && planner_.dynamic_model != DynamicModel::none)
@@ -138,7 +140,7 @@ void ClearanceModel::add_track(const ObstacleTrack& track, double time) {
   }
   FieldParameters parameters = field_;
   if (planner_.dynamic_model == DynamicModel::frozen) {
-    parameters.directional = false;  // a disc where it stands
+    parameters.directional = false;  // a disc at its present position
     parameters.threshold_scale = 1.0;
   }
   DangerRegion region;
@@ -182,9 +184,9 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
   const double speed = speed_bound(trajectory);
   ClearanceReport report;
 
-  // The interpolated distance may be a little steeper than the true one.
+  // The interpolated distance may be slightly steeper than the true one.
   constexpr double kInterpolationSteepness = 1.1;
-  // No alternative justifies contact, which is what the whole margin lost means.
+  // No alternative justifies contact, that is, the loss of the whole margin.
   constexpr double kLosable = 0.9;
   const double static_margin = window.margin_scale * static_margin_;
   check_against(
@@ -193,8 +195,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
       -kLosable * static_margin,
       [&](double, const Eigen::Vector2d& p) { return static_clearance(p, window.margin_scale); }, report);
 
-  // Obstacles have no margin, whether they are taken to stand (a round field, below) or to move on: ES2 and
-  // ES2*.
+  // Obstacles have no margin, whether taken as fixed (a round field, below; ES2) or as moving on (ES2*).
   const double peer_margin = window.margin_scale * planner_.peer_margin;
   for (const MovingDisc& disc : discs_) {
     DiscCursor other{disc};
@@ -209,7 +210,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
         },
         report);
   }
-  // To be in the field is no contact yet.
+  // Being in a field is not contact.
   if (!window.fields) return report;
   for (const DangerRegion& region : regions_)
     check_against(

@@ -19,7 +19,7 @@ OccupancyMap make_map() {
   return map;
 }
 
-/// Constant velocity from a place, one piece.
+/// Constant velocity from a position, one piece.
 Trajectory straight(const Eigen::Vector2d& from, const Eigen::Vector2d& velocity, double start,
                     double duration) {
   Trajectory trajectory{start};

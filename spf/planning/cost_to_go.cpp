@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace spf {
-/// The four nodes around a place and their weights.
+/// The four nodes around a position and their weights.
 struct CostToGo::Cell {
   Eigen::Vector2d local;  // [m] from the window's origin
   std::array<std::int32_t, 4> node;
@@ -18,7 +18,7 @@ struct CostToGo::Cell {
 
 CostToGo::CostToGo(const CostToGoParameters& parameters) : parameters_{validated(parameters)} {}
 
-Eigen::Vector2d CostToGo::place(std::int32_t index) const {
+Eigen::Vector2d CostToGo::local_position(std::int32_t index) const {
   return window_.resolution * Eigen::Vector2d{index % window_.width, index / window_.width};
 }
 
@@ -29,14 +29,13 @@ double CostToGo::cost_at(const Node& node, const Eigen::Vector2d& local) const {
 }
 
 // ---- queries
-// --------------------------------------------------------------------------------------------------
 
 CostToGo::Cell CostToGo::cell_of(const Eigen::Vector2d& position_world) const {
   Cell cell;
   const Eigen::Vector2d asked = position_world - window_.origin_world;
   const double width = window_.resolution * (window_.width - 1);
   const double height = window_.resolution * (window_.height - 1);
-  // In this order of arguments NaN becomes 0.
+  // With this order of arguments NaN becomes 0.
   cell.local = {std::min(std::max(0.0, asked.x()), width), std::min(std::max(0.0, asked.y()), height)};
   const Eigen::Vector2d beyond = asked - cell.local;
   cell.outside = beyond.norm();
@@ -94,7 +93,7 @@ std::int32_t CostToGo::best_corner(const Cell& cell) const {
   double lowest = std::numeric_limits<double>::infinity();
   for (const std::int32_t index : cell.node) {
     const double cost =
-        (cell.local - place(index)).norm() + static_cast<double>(own_cost(node_at(index), index));
+        (cell.local - local_position(index)).norm() + static_cast<double>(own_cost(node_at(index), index));
     if (cost < lowest) {
       lowest = cost;
       best = index;
@@ -103,7 +102,7 @@ std::int32_t CostToGo::best_corner(const Cell& cell) const {
   return best;
 }
 
-// Calls visit(place in the window) for the place itself and every corner until visit returns false.
+// Calls visit(position in the window) for the position itself and every corner until visit returns false.
 template <class Visit>
 void CostToGo::walk(const Eigen::Vector2d& position_world, const Visit& visit) const {
   const Cell cell = cell_of(position_world);
@@ -114,13 +113,14 @@ void CostToGo::walk(const Eigen::Vector2d& position_world, const Visit& visit) c
   const bool agreed = std::all_of(cell.node.begin(), cell.node.end(), [&](std::int32_t index) {
     return index_of_parent(index) == index_of_parent(corner);
   });
-  // Where the four nodes see different corners, the straight line from here to one of them may clip an edge.
+  // Where the four nodes have different parents, the straight line from here to one of these may clip an
+  // edge.
   const Node& first = node_at(corner);
-  if (!agreed && !on_blocked_ground(first) && !visit(place(corner))) return;
+  if (!agreed && !on_blocked_ground(first) && !visit(local_position(corner))) return;
   std::int32_t index = corner;
   if (on_blocked_ground(first) && first.parent_node != kBlocked) {
     index = nearest_reached_of(first);
-    if (!visit(place(index))) return;
+    if (!visit(local_position(index))) return;
   }
   // Costs fall from parent to parent, so this ends at the goal.
   while (index >= 0) {

@@ -1,7 +1,7 @@
-// The way to the goal around static obstacles, from everywhere: a cost-to-go in metres. A wavefront from the
-// goal gives every node of a coarse grid its parent: the last corner from which it can be seen (lazy Theta*,
-// any-angle). The cost at a place is then a distance to a parent plus the parent's own cost: exact, not the
-// sum of grid steps. Frame: world.
+// Cost-to-go [m]: the length of the shortest path around static obstacles to the goal, from any position. A
+// wavefront from the goal assigns to every node of a coarse grid its parent: the next corner on the path to
+// the goal, which is in line of sight (lazy Theta*, any-angle). The cost at a position is the distance to a
+// parent plus the parent's cost: an exact length, not a sum of grid steps. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,17 +16,17 @@
 namespace spf {
 
 struct CostToGoParameters {
-  double clearance = 0.35;  ///< [m] distance to static surfaces that the way keeps
-  double resolution = 0.2;  ///< [m] of the wavefront's nodes, at most 1.4 clearance is used; passages
-                            ///< narrower than 2 clearance + this may be missed
+  double clearance = 0.35;      ///< [m] distance to static surfaces that paths keep
+  double resolution = 0.2;      ///< [m] spacing of nodes, at most 1.4 clearance is used; passages
+                                ///< narrower than 2 clearance + this may be missed
   double window_margin = 10.0;  ///< [m] the wavefront first stays this close to the box around robot and goal
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("clearance", self.clearance, kMetresBySize, Range{0.0, 20.0},
-          "distance to static surfaces that the global way keeps");
+          "distance to static surfaces that the global path keeps");
     visit("resolution", self.resolution, kMetresBySize, Range{0.005, 5.0},
-          "spacing of the nodes of the global way's search");
+          "spacing of the nodes of the global path's search");
   }
 
   /// No settings, but they follow the robot.
@@ -37,11 +37,11 @@ struct CostToGoParameters {
 };
 
 enum class CostToGoOutcome {
-  reachable,     ///< a way leads from the robot to the goal
-  goal_moved,    ///< likewise, but to goal_used(), the nearest free place to a goal on blocked ground
-  unreachable,   ///< no way; the cost-to-go then counts blocked ground several times over and still leads to
-                 ///< the goal
-  no_free_goal,  ///< the map has no free place near the goal at all (or numbers were not finite): no field
+  reachable,    ///< a path leads from the robot to the goal
+  goal_moved,   ///< likewise, but to goal_used(), the nearest free position to a goal on blocked ground
+  unreachable,  ///< no path; the cost-to-go then charges blocked ground several times over and still leads to
+                ///< the goal
+  no_free_goal,  ///< no free position near the goal at all (or numbers not finite): no cost-to-go
 };
 
 class CostToGo {
@@ -49,13 +49,12 @@ class CostToGo {
   /// Throws std::invalid_argument on parameters out of range.
   explicit CostToGo(const CostToGoParameters& parameters);
 
-  /// Propagates from the goal far enough for a robot at `robot_world`. What the wavefront works with (some 30
-  /// bytes a node) is kept from run to run where the map is being sensed, since the next wavefront is near,
-  /// and given back where all of it is known; what remains is 2 bytes a node and 16 for every different
-  /// parent.
+  /// Propagates from the goal far enough for a robot at `robot_world`. The wavefront's working memory (some
+  /// 30 bytes a node) is kept from run to run when the map is being sensed, since the next update comes soon,
+  /// and freed when all of the map is known; what remains is 2 bytes a node and 16 for every distinct parent.
   CostToGoOutcome update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                          const Eigen::Vector2d& robot_world);
-  /// Whether update() with these arguments would do work of any use: new goal, changed map, robot out of the
+  /// Whether update() with these arguments could change anything: new goal, changed map, robot out of the
   /// window.
   [[nodiscard]] bool outdated(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                               const Eigen::Vector2d& robot_world) const;
@@ -63,29 +62,29 @@ class CostToGo {
   [[nodiscard]] bool ready() const { return !parents_.empty(); }
   [[nodiscard]] CostToGoOutcome outcome() const { return outcome_; }
 
-  // The following need ready(); none allocates (except the growth of way()'s argument).
-  /// Length of the shortest way to goal_used() [m]. Continuous; exactly the straight distance where the goal
-  /// is in view.
+  // The following require ready(); none allocates (except to grow way()'s argument).
+  /// Length of the shortest path to goal_used() [m]. Continuous; exactly the straight distance where the goal
+  /// is in line of sight.
   [[nodiscard]] double cost_to_go(const Eigen::Vector2d& position_world) const;
-  /// Gradient of cost_to_go, which points away from the goal; length about 1 on free ground.
+  /// Gradient of cost_to_go [1], which points away from the goal; length about 1 on free ground.
   [[nodiscard]] Eigen::Vector2d cost_gradient(const Eigen::Vector2d& position_world) const;
   /// Unit vector of steepest descent: towards the corner ahead, on blocked ground also out of it; zero at the
   /// goal.
   [[nodiscard]] Eigen::Vector2d direction(const Eigen::Vector2d& position_world) const;
-  /// The place reached after `distance` metres along the shortest way, at most the goal.
+  /// The position after `distance` metres along the shortest path, at most the goal.
   [[nodiscard]] Eigen::Vector2d descend(const Eigen::Vector2d& position_world, double distance) const;
-  /// The corners of the shortest way, from the place itself to goal_used().
+  /// The corners of the shortest path, from the position itself to goal_used().
   void way(const Eigen::Vector2d& position_world, std::vector<Eigen::Vector2d>& corners_world) const;
-  /// Whether a way leads from here to the goal.
+  /// Whether a path leads from this position to the goal.
   [[nodiscard]] bool reachable(const Eigen::Vector2d& position_world) const;
 
-  /// The goal, or the nearest place that keeps the clearance.
+  /// The goal, or the nearest position that keeps the clearance.
   [[nodiscard]] const Eigen::Vector2d& goal_used() const { return goal_used_; }
   [[nodiscard]] const CostToGoParameters& parameters() const { return parameters_; }
 
  private:
-  /// What a node knows about reaching the goal: parent_cost + |place - parent|. The parent is the goal or
-  /// another node; on blocked ground it is the parent of the nearest node with a way.
+  /// The cost-to-go of a node is parent_cost + |position - parent|. The parent is the goal or another node;
+  /// on blocked ground it is the parent of the nearest node that has a path.
   struct Node {
     float parent_x, parent_y;  // [m] from the window's origin
     float parent_cost;         // [m]
@@ -96,7 +95,7 @@ class CostToGo {
     float cost;
     std::int32_t node;
   };
-  /// The wavefront under way, by node of the window.
+  /// State of the wavefront in progress, by node of the window.
   struct Wavefront {
     std::vector<Node> nodes;
     std::vector<std::uint8_t> state;
@@ -107,16 +106,16 @@ class CostToGo {
   struct Cell;
   static constexpr std::int32_t kGoal = -1;
   static constexpr std::int32_t kUnseen = -2;
-  static constexpr std::int32_t kBlocked = -3;  // no way at all; below: kBlocked - 1 - nearest_reached
+  static constexpr std::int32_t kBlocked = -3;  // no path at all; below: kBlocked - 1 - nearest_reached
 
   [[nodiscard]] static bool on_blocked_ground(const Node& node) { return node.parent_node <= kBlocked; }
   [[nodiscard]] static std::int32_t nearest_reached_of(const Node& node) {
     return kBlocked - 1 - node.parent_node;
   }
-  [[nodiscard]] Eigen::Vector2d place(std::int32_t index) const;
+  [[nodiscard]] Eigen::Vector2d local_position(std::int32_t index) const;
   [[nodiscard]] double cost_at(const Node& node, const Eigen::Vector2d& local) const;
   [[nodiscard]] float own_cost(const Node& node, std::int32_t index) const {
-    return static_cast<float>(cost_at(node, place(index)));
+    return static_cast<float>(cost_at(node, local_position(index)));
   }
   [[nodiscard]] const Node& node_at(std::int32_t index) const {
     const auto node = static_cast<std::size_t>(index);
@@ -139,15 +138,15 @@ class CostToGo {
   void find_parent_in_view(const OccupancyMap& map, std::int32_t index);
   [[nodiscard]] Node parent_at(std::int32_t index, const Eigen::Vector2d& local) const;
   [[nodiscard]] Eigen::Vector2d at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const;
-  [[nodiscard]] bool sees_place(const OccupancyMap& map, const Node& parent,
-                                const Eigen::Vector2d& local) const;
+  [[nodiscard]] bool sees_position(const OccupancyMap& map, const Node& parent,
+                                   const Eigen::Vector2d& local) const;
   [[nodiscard]] bool in_view(const OccupancyMap& map, std::int32_t index, const Node& parent) const;
   [[nodiscard]] bool wavefront_reached(const Eigen::Vector2d& position_world) const;
   void extend_over_blocked_ground();
   void keep(const OccupancyMap& map);
   [[nodiscard]] std::optional<std::uint16_t> kept_beside(std::int32_t index) const;
-  [[nodiscard]] std::optional<Eigen::Vector2d> nearest_free_place(const OccupancyMap& map,
-                                                                  const Eigen::Vector2d& wanted) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> nearest_free_position(const OccupancyMap& map,
+                                                                     const Eigen::Vector2d& wanted) const;
   [[nodiscard]] bool window_covers(const Eigen::Vector2d& position_world) const;
 
   CostToGoParameters parameters_;
@@ -157,7 +156,7 @@ class CostToGo {
   std::uint64_t map_revision_ = 0;
   bool whole_map_ = false;
   GridFrame window_;
-  // What the wavefront found. Neighbours mostly know the same, so that is kept once.
+  // The wavefront's result. Neighbours mostly share a parent, so each is stored once.
   std::vector<Node> parents_;
   std::vector<std::uint16_t>
       parent_of_;  // by node, an index into parents_; empty: parents_ is by node itself

@@ -44,9 +44,9 @@ bool sees(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const std::vector<
   return true;
 }
 
-/// Oracle: shortest ways to a goal by a visibility graph over polygons around the rounded corners. The
-/// polygon's corners stand a little outside the arc, so lengths are too long by at most 1 - cos(pi / 48) =
-/// 0.2 %.
+/// Oracle: shortest paths to a goal by a visibility graph over polygons around the rounded corners. The
+/// polygon's corners lie a little outside the arc, so lengths are too long by at most 1 - cos(pi / 48) = 0.2
+/// %.
 class VisibilityGraph {
  public:
   VisibilityGraph(const std::vector<Box>& boxes, const Eigen::Vector2d& goal, double clearance)
@@ -149,7 +149,7 @@ TEST(GuidePathSlow, MatchesTheVisibilityGraph) {
                              << " instead of " << expected;
     }
   }
-  // Measured: mean 0.15 %, 1.1 % of the places beyond 2 % (behind passages that the coarse nodes find a
+  // Measured: mean 0.15 %, 1.1 % of the positions beyond 2 % (behind passages that the coarse nodes find a
   // little narrower than they are), worst 3.8 %.
   ASSERT_GT(compared, 300);
   EXPECT_LT(sum / compared, 0.003);
@@ -164,10 +164,10 @@ TEST(CostToGo, IsTheStraightDistanceWhereTheGoalIsInView) {
   CostToGo guide{CostToGoParameters{}};
   const Eigen::Vector2d goal{5.03, -1.17};
   ASSERT_EQ(guide.update(map, goal, {0.0, 0.0}), CostToGoOutcome::reachable);
-  for (const Eigen::Vector2d& place : {Eigen::Vector2d{5.0, 3.0}, {3.1, -5.2}, {7.3, 0.4}, goal}) {
-    EXPECT_NEAR(guide.cost_to_go(place), (place - goal).norm(), 1e-5);  // floats of some metres
-    if (place == goal) continue;
-    EXPECT_LT((guide.direction(place) - (goal - place).normalized()).norm(), 1e-4);
+  for (const Eigen::Vector2d& position : {Eigen::Vector2d{5.0, 3.0}, {3.1, -5.2}, {7.3, 0.4}, goal}) {
+    EXPECT_NEAR(guide.cost_to_go(position), (position - goal).norm(), 1e-5);  // floats of some metres
+    if (position == goal) continue;
+    EXPECT_LT((guide.direction(position) - (goal - position).normalized()).norm(), 1e-4);
   }
   EXPECT_EQ(guide.direction(goal).norm(), 0.0);
 }
@@ -193,7 +193,7 @@ TEST(CostToGo, LeadsOutOfAUShapeAlongClearGround) {
   EXPECT_NEAR(length, guide.cost_to_go(start), 0.02 * length);
   EXPECT_LT((guide.descend(start, length + 1.0) - goal).norm(), 1e-4);
   EXPECT_EQ(guide.descend(start, 0.0), start);
-  // Walking on, the way gets shorter by what was walked.
+  // Along the path, its length falls by the distance covered.
   for (double walked = 0.5; walked < length; walked += 0.5) {
     EXPECT_NEAR(guide.cost_to_go(guide.descend(start, walked)), length - walked, 0.03 * length) << walked;
   }
@@ -208,19 +208,20 @@ TEST(CostToGo, CostIsContinuousAndItsGradientExact) {
   const double step = 1e-6;
   for (int k = 0; k < 2000; ++k) {
     const double x = random.uniform(-7.5, 7.5);
-    const Eigen::Vector2d place{x, random.uniform(-7.5, 7.5)};
+    const Eigen::Vector2d position{x, random.uniform(-7.5, 7.5)};
     Eigen::Vector2d expected;
     for (int axis = 0; axis < 2; ++axis) {
       const Eigen::Vector2d shift = step * Eigen::Vector2d::Unit(axis);
-      expected[axis] = (guide.cost_to_go(place + shift) - guide.cost_to_go(place - shift)) / (2.0 * step);
+      expected[axis] =
+          (guide.cost_to_go(position + shift) - guide.cost_to_go(position - shift)) / (2.0 * step);
       // Also across the borders of cells a micrometre never makes a jump; the steepest slopes are those of
       // blocked ground and of nodes on the two sides of a wall.
       EXPECT_LT(std::fabs(expected[axis]), 1e3);
     }
-    const Eigen::Array2d cell = (place - map.frame().origin_world).array() / 0.2;
+    const Eigen::Array2d cell = (position - map.frame().origin_world).array() / 0.2;
     if (((cell - cell.round()).abs() < 1e-4).any()) continue;
-    EXPECT_LT((guide.cost_gradient(place) - expected).norm(), 1e-5 * (1.0 + expected.norm()))
-        << place.transpose();
+    EXPECT_LT((guide.cost_gradient(position) - expected).norm(), 1e-5 * (1.0 + expected.norm()))
+        << position.transpose();
   }
 }
 

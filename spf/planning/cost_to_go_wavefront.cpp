@@ -14,13 +14,13 @@ constexpr double kBlockedFactor = 3.0;  // [1] about the cost of a metre on bloc
 enum NodeState : std::uint8_t {
   blocked,  // nearer to a surface than the clearance
   unseen,   // free, not reached yet
-  trusted,  // has a parent that may or may not be in view
-  seen,     // has a parent in view
+  trusted,  // has a parent that has yet to be checked for line of sight
+  seen,     // has a parent in line of sight
   settled,  // its cost is final
 };
 
-/// Lines of sight may come this much nearer than the clearance, in cells of the map: what bilinear
-/// interpolation and the steps between nodes add and take away.
+/// Lines of sight may pass this much nearer than the clearance, in cells of the map: the error of bilinear
+/// interpolation and of the steps between nodes.
 constexpr double kSightSlack = 0.25;
 
 template <class Entry>
@@ -49,7 +49,7 @@ CostToGoOutcome CostToGo::update(const OccupancyMap& map, const Eigen::Vector2d&
   map_revision_ = map.revision();
   outcome_ = CostToGoOutcome::no_free_goal;
   if (!goal_world.allFinite() || !robot_world.allFinite()) return outcome_;
-  const std::optional<Eigen::Vector2d> goal = nearest_free_place(map, goal_world);
+  const std::optional<Eigen::Vector2d> goal = nearest_free_position(map, goal_world);
   if (!goal) return outcome_;
   goal_used_ = *goal;
   const CostToGoOutcome success =
@@ -78,7 +78,8 @@ bool CostToGo::wavefront_reached(const Eigen::Vector2d& position_world) const {
   const Eigen::Vector2d local = position_world - window_.origin_world;
   const int i = std::min(static_cast<int>(local.x() / window_.resolution), window_.width - 2);
   const int j = std::min(static_cast<int>(local.y() / window_.resolution), window_.height - 2);
-  // From blocked ground (pushed against a wall, a goal of one's own) a way may begin a little farther off.
+  // From blocked ground (a robot pushed against a wall, or its own goal there) a path may begin a little
+  // farther off.
   for (int reach = 0; reach <= 2; ++reach) {
     for (int dj = -reach; dj <= 1 + reach; ++dj) {
       for (int di = -reach; di <= 1 + reach; ++di) {
@@ -98,12 +99,12 @@ void CostToGo::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, c
   const GridFrame& frame = map.frame();
   const Eigen::Vector2d map_low = frame.origin_world;
   const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
-  // Two free nodes must not be neighbours across a wall, however thin: their distance stays below 2
+  // Two free nodes must not be neighbours across a wall, however thin, so their distance stays below 2
   // clearance.
   const double safe_spacing =
       parameters_.clearance > 0.0 ? 1.4 * parameters_.clearance : parameters_.resolution;
   const double spacing = std::max(std::min(parameters_.resolution, safe_spacing), frame.resolution);
-  // Nodes stand on multiples of the spacing from the map's corner, so that they do not move with the window.
+  // Nodes lie on multiples of the spacing from the map's corner, so that they do not move with the window.
   const auto snapped = [&](const Eigen::Vector2d& corner) {
     const Eigen::Vector2d inside = corner.cwiseMax(map_low).cwiseMin(map_high);
     return Eigen::Vector2d{map_low + spacing * ((inside - map_low) / spacing).array().floor().matrix()};
@@ -129,9 +130,9 @@ void CostToGo::mark_free_nodes(const OccupancyMap& map) {
   }
 }
 
-// Nodes leave the heap in the order of their cost, on trust that their parent is in view. Only then is that
-// checked, once a node (lazy); a node that was wrong gets the best parent that is, and waits for its turn
-// again.
+// Nodes leave the heap in the order of their cost, on the assumption that their parent is in line of sight.
+// Only then is that checked, once a node (lazy); a node for which it is wrong gets the best parent that is,
+// and goes back to the heap.
 void CostToGo::propagate(const OccupancyMap& map) {
   wavefront_.heap.clear();
   seed(map);
@@ -155,11 +156,11 @@ void CostToGo::propagate(const OccupancyMap& map) {
 }
 
 // Whether the line from a node to its parent passes between two neighbours that see the same parent. Nothing
-// fits between their lines of sight: they are less than 1.4 clearance apart and a surface is 2 clearance
-// wide. Saves most looks.
+// fits between their lines of sight: they are less than 1.4 clearance apart and an inflated surface is 2
+// clearance wide. Saves most line-of-sight checks.
 bool CostToGo::between_viewers(std::int32_t index) const {
   const Node& node = wavefront_.nodes[static_cast<std::size_t>(index)];
-  const Eigen::Vector2d to_parent = Eigen::Vector2d{node.parent_x, node.parent_y} - place(index);
+  const Eigen::Vector2d to_parent = Eigen::Vector2d{node.parent_x, node.parent_y} - local_position(index);
   const double x = std::fabs(to_parent.x());
   const double y = std::fabs(to_parent.y());
   if (std::max(x, y) < 2.0 * window_.resolution) return false;
@@ -185,7 +186,7 @@ void CostToGo::push(std::int32_t index) {
   std::push_heap(wavefront_.heap.begin(), wavefront_.heap.end(), costlier<Entry>);
 }
 
-// The nodes beside the goal, or, in a narrow place, the nearest that see it.
+// Starts from the nodes beside the goal or, in a narrow passage, the nearest ones in line of sight.
 void CostToGo::seed(const OccupancyMap& map) {
   const Eigen::Vector2d local = goal_used_ - window_.origin_world;
   const Node goal{static_cast<float>(local.x()), static_cast<float>(local.y()), 0.0F, kGoal};
@@ -213,17 +214,18 @@ void CostToGo::offer(std::int32_t index, const Node& parent) {
 }
 
 bool CostToGo::in_view(const OccupancyMap& map, std::int32_t index, const Node& parent) const {
-  return sees_place(map, parent, place(index));
+  return sees_position(map, parent, local_position(index));
 }
 
-bool CostToGo::sees_place(const OccupancyMap& map, const Node& parent, const Eigen::Vector2d& local) const {
+bool CostToGo::sees_position(const OccupancyMap& map, const Node& parent,
+                             const Eigen::Vector2d& local) const {
   const Eigen::Vector2d there = window_.origin_world + Eigen::Vector2d{parent.parent_x, parent.parent_y};
   return map.segment_clear(window_.origin_world + local, there,
                            parameters_.clearance - kSightSlack * map.frame().resolution);
 }
 
 void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index) {
-  const Eigen::Vector2d here = place(index);
+  const Eigen::Vector2d here = local_position(index);
   Node best{0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen};
   double lowest = std::numeric_limits<double>::infinity();
   const auto try_parent = [&](const Node& parent, bool surely_in_view) {
@@ -234,13 +236,14 @@ void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index) 
   };
   for_neighbours(index, [&](std::int32_t next) {
     if (wavefront_.state[static_cast<std::size_t>(next)] != settled) return;
-    try_parent(parent_at(next, place(next)), true);
-    // The corner itself stands off the nodes, between this one and the last in view, at the clearance.
-    for (const Eigen::Vector2d& near : {place(next), Eigen::Vector2d{0.5 * (place(next) + here)}}) {
+    try_parent(parent_at(next, local_position(next)), true);
+    // The corner itself lies between nodes, this one and the last in view, at the clearance.
+    for (const Eigen::Vector2d& near :
+         {local_position(next), Eigen::Vector2d{0.5 * (local_position(next) + here)}}) {
       const Node corner = parent_at(next, at_clearance(map, near));
-      const Eigen::Vector2d corner_place{corner.parent_x, corner.parent_y};
+      const Eigen::Vector2d corner_position{corner.parent_x, corner.parent_y};
       if (cost_at(corner, here) < lowest &&
-          sees_place(map, wavefront_.nodes[static_cast<std::size_t>(next)], corner_place)) {
+          sees_position(map, wavefront_.nodes[static_cast<std::size_t>(next)], corner_position)) {
         try_parent(corner, false);
       }
     }
@@ -259,13 +262,13 @@ void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index) 
   wavefront_.nodes[static_cast<std::size_t>(index)] = best;
 }
 
-// A place in view of a node's parent as a parent of its own.
+// A position in view of a node's parent as a parent of its own.
 CostToGo::Node CostToGo::parent_at(std::int32_t index, const Eigen::Vector2d& local) const {
   const double cost = cost_at(wavefront_.nodes[static_cast<std::size_t>(index)], local);
   return {static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(cost), index};
 }
 
-// The nearby place that just keeps the clearance.
+// The nearby position that just keeps the clearance.
 Eigen::Vector2d CostToGo::at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const {
   Eigen::Vector2d position = window_.origin_world + local;
   for (int step = 0; step < 2; ++step) {
@@ -275,9 +278,9 @@ Eigen::Vector2d CostToGo::at_clearance(const OccupancyMap& map, const Eigen::Vec
   return position - window_.origin_world;
 }
 
-// Ground that the wavefront did not reach belongs to the nearest node that it did (its nearest reached node):
-// the parent of the nearest_reached, and for every metre of depth beyond the first cells a surcharge.
-// Nearest, not cheapest, so that the two faces of a wall keep their own costs.
+// A node that the wavefront did not reach takes the parent of the nearest node that it did, with a surcharge
+// for every metre of depth beyond the first cells. Nearest, not cheapest, so that the two faces of a wall
+// keep their own costs.
 void CostToGo::extend_over_blocked_ground() {
   wavefront_.queue.clear();
   wavefront_.nearest_reached.assign(wavefront_.nodes.size(), kUnseen);
@@ -296,12 +299,12 @@ void CostToGo::extend_over_blocked_ground() {
   for (std::size_t head = 0; head < wavefront_.queue.size(); ++head) {
     const std::int32_t nearest_reached =
         wavefront_.nearest_reached[static_cast<std::size_t>(wavefront_.queue[head])];
-    const Eigen::Vector2d nearest_position = place(nearest_reached);
+    const Eigen::Vector2d nearest_position = local_position(nearest_reached);
     for_neighbours(wavefront_.queue[head], [&](std::int32_t next) {
       std::int32_t& known = wavefront_.nearest_reached[static_cast<std::size_t>(next)];
       if (known == next || known == nearest_reached) return;
-      const double depth = (place(next) - nearest_position).squaredNorm();
-      if (known != kUnseen && depth >= (place(next) - place(known)).squaredNorm()) return;
+      const double depth = (local_position(next) - nearest_position).squaredNorm();
+      if (known != kUnseen && depth >= (local_position(next) - local_position(known)).squaredNorm()) return;
       known = nearest_reached;
       wavefront_.queue.push_back(next);
     });
@@ -311,14 +314,15 @@ void CostToGo::extend_over_blocked_ground() {
     const std::int32_t nearest_reached = wavefront_.nearest_reached[static_cast<std::size_t>(index)];
     if (nearest_reached == index) continue;
     Node node = wavefront_.nodes[static_cast<std::size_t>(nearest_reached)];
-    const double depth = std::max((place(index) - place(nearest_reached)).norm() - free_depth, 0.0);
+    const double depth =
+        std::max((local_position(index) - local_position(nearest_reached)).norm() - free_depth, 0.0);
     node.parent_cost += static_cast<float>((kBlockedFactor - 1.0) * depth);
     node.parent_node = kBlocked - 1 - nearest_reached;
     wavefront_.nodes[static_cast<std::size_t>(index)] = node;
   }
 }
 
-// Parent and cost spread over whole regions, so that nearly every node is the same as one beside it.
+// Stores each distinct parent once: whole regions share one, so nearly every node has that of a neighbour.
 void CostToGo::keep(const OccupancyMap& map) {
   constexpr std::size_t kMostParents = std::size_t{1} << 16;
   parent_of_.clear();
@@ -339,7 +343,7 @@ void CostToGo::keep(const OccupancyMap& map) {
   parents_.shrink_to_fit();
 }
 
-/// Where a neighbour that was kept before holds the same as this node.
+/// Index of the stored parent of an earlier neighbour, when it is this node's too.
 std::optional<std::uint16_t> CostToGo::kept_beside(std::int32_t index) const {
   const Node& node = wavefront_.nodes[static_cast<std::size_t>(index)];
   const int column = index % window_.width;
@@ -358,9 +362,9 @@ std::optional<std::uint16_t> CostToGo::kept_beside(std::int32_t index) const {
   return std::nullopt;
 }
 
-// Rings of map nodes around the wanted place; the place itself when it keeps the clearance.
-std::optional<Eigen::Vector2d> CostToGo::nearest_free_place(const OccupancyMap& map,
-                                                            const Eigen::Vector2d& wanted) const {
+// Rings of map nodes around the wanted position; the position itself when it keeps the clearance.
+std::optional<Eigen::Vector2d> CostToGo::nearest_free_position(const OccupancyMap& map,
+                                                               const Eigen::Vector2d& wanted) const {
   const GridFrame& frame = map.frame();
   const Eigen::Vector2d high = frame.node_position(frame.width - 1, frame.height - 1);
   const bool inside =

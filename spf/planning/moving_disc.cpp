@@ -6,7 +6,8 @@
 namespace spf {
 namespace {
 
-/// Largest norm of the Bernstein control points of the velocity of one piece, whose hull holds the velocity.
+/// Largest norm of the Bernstein control points of the velocity of one piece, whose convex hull contains the
+/// velocity.
 double piece_speed_bound(const QuinticPiece& piece) {
   // Velocity in u = t / T: sum_k d_k u^k with d_k = (k + 1) c_{k+1} T^k; Bernstein b_i = sum_k C(i,k) /
   // C(4,k) d_k.

@@ -1,6 +1,5 @@
-// A disc on a known course over absolute time: a teammate's broadcast trajectory, an obstacle that moves on
-// at constant velocity, or one that stands. The one description shared by the peer cost and the clearance
-// check. Frame: world.
+// A disc with known motion over absolute time: a teammate's broadcast trajectory, an obstacle that moves on
+// at constant velocity, or one at rest. Shared by the peer cost and the clearance check. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +12,8 @@ struct MovingDisc {
   int id = -1;
   bool is_peer = false;
   double radius = 0.0;                     ///< [m] distance of the centres at contact
-  double speed_bound = 0.0;                ///< [m/s] never faster than this
-  const Trajectory* trajectory = nullptr;  ///< the course; null: a straight line at constant velocity
+  double speed_bound = 0.0;                ///< [m/s] upper bound of its speed
+  const Trajectory* trajectory = nullptr;  ///< the motion; null: a straight line at constant velocity
   double time = 0.0;                       ///< [s] instant of position_world (straight line)
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]

@@ -16,8 +16,9 @@ PlannerParameters at_constant_velocity(PlannerParameters planner) {
 }
 
 bool cut_off(const PlanRequest& request) {
-  const CostToGoOutcome way = request.guide->outcome();
-  return request.goal_cut_off || way == CostToGoOutcome::unreachable || way == CostToGoOutcome::no_free_goal;
+  const CostToGoOutcome found = request.guide->outcome();
+  return request.goal_cut_off || found == CostToGoOutcome::unreachable ||
+         found == CostToGoOutcome::no_free_goal;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace spf {
 namespace {
 
-constexpr double kStandingDuration = 1.0;  // [s] any length will do: a trajectory stands at its ends
+constexpr double kRestDuration = 1.0;  // [s] any duration will do: a trajectory rests at its ends
 
 bool finite_head(const PlanRequest& request) {
   return std::isfinite(request.time) && request.head.position_world.allFinite() &&
@@ -66,9 +66,8 @@ void stand_instead(const PlanRequest& request, const RobotParameters& robot, Pla
     return;
   }
   const Eigen::Vector2d& here = request.head.position_world;
-  result.trajectory =
-      Trajectory::standing(here.allFinite() ? here : Eigen::Vector2d{0.0, 0.0},
-                           std::isfinite(request.time) ? request.time : 0.0, kStandingDuration);
+  result.trajectory = Trajectory::standing(here.allFinite() ? here : Eigen::Vector2d{0.0, 0.0},
+                                           std::isfinite(request.time) ? request.time : 0.0, kRestDuration);
 }
 
 }  // namespace spf

@@ -10,8 +10,8 @@ namespace spf {
 /// What is assumed about moving obstacles; the baselines of the paper differ in nothing else.
 enum class DynamicModel {
   none,               ///< ignored (checks included)
-  frozen,             ///< ES2: stands where it is
-  constant_velocity,  ///< ES2*: moves on for ever at its present velocity
+  frozen,             ///< ES2: stays at its present position
+  constant_velocity,  ///< ES2*: moves on at its present velocity
   probability_field,  ///< the paper: safety probability field, both sides tried
 };
 
@@ -60,8 +60,8 @@ inline constexpr double kAccelerationTolerance = 0.1;
 
 struct PlannerParameters {
   DynamicModel dynamic_model = DynamicModel::probability_field;
-  double horizon = 7.5;          ///< [m] way to the local target
-  double piece_length = 1.5;     ///< [m] way per piece (ES2)
+  double horizon = 7.5;          ///< [m] distance to the local target
+  double piece_length = 1.5;     ///< [m] path length per piece (ES2)
   int max_pieces = 8;            ///< [1] no setting
   int nodes_per_piece = 5;       ///< [1] intervals between nodes in a piece (ES2); no setting
   double static_margin = 0.02;   ///< [m] beyond the robot's radius, for search and checks
@@ -71,10 +71,10 @@ struct PlannerParameters {
   double peer_clearance = 0.25;  ///< [m] wanted beyond contact with peers
   double safety_distance = 0.3;  ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
   double least_lateral_share =
-      0.7;  ///< [1] sine of the least angle between escape direction and way through the field
+      0.7;  ///< [1] sine of the least angle between escape direction and path through the field
   int run_evaluations = 60;      ///< [1] deadline of one optimiser run; no setting
   int max_evaluations = 400;     ///< [1] deadline of one plan
-  double goal_tolerance = 0.01;  ///< [m] closer and at rest: standing is the plan
+  double goal_tolerance = 0.01;  ///< [m] closer and at rest: the plan is to stay
   CostWeights weights;
   LbfgsParameters optimizer;  ///< no settings
 
@@ -83,7 +83,7 @@ struct PlannerParameters {
     constexpr Range kLength{0.0, 100.0};
     visit("dynamic_model", self.dynamic_model, "what is assumed about moving obstacles");
     visit("horizon", self.horizon, kMetresByStopping, Range{0.05, 100.0},
-          "way to the local target (ES2: 7.5)");
+          "distance to the local target (ES2: 7.5)");
     visit("static_margin", self.static_margin, kMetresBySize, kLength,
           "beyond the radius, for search and checks of static obstacles");
     visit("hard_clearance", self.hard_clearance, kMetresBySize, Range{0.001, 100.0},
@@ -95,7 +95,7 @@ struct PlannerParameters {
           "wanted beyond contact with them");
     visit("safety_distance", self.safety_distance, kMetresBySize, Range{0.001, 100.0}, "d_saf of eq. 10");
     visit("least_lateral_share", self.least_lateral_share, "1", Range{0.0, 1.0},
-          "sine of the least angle between an escape direction and the way through the field; 0 = eq. 11 as "
+          "sine of the least angle between an escape direction and the path through the field; 0 = eq. 11 as "
           "printed");
     visit("max_evaluations", self.max_evaluations, "1", Range{5, 1000000},
           "cost evaluations of one plan: its deadline");

@@ -44,7 +44,7 @@ void TrajectoryOptimizer::set(const TrajectoryProblem& problem, const Trajectory
 }
 
 OptimizerResult TrajectoryOptimizer::finish(const LbfgsResult& run) {
-  // The last evaluation may have been a rejected trial: solve once more at the result.
+  // The last evaluation may have been a rejected trial: solve again at the result.
   solution_.resize(layout_.piece_count);
   solution_.waypoints_world = layout_.waypoints(decision_.head(layout_.size()));
   solution_.durations = layout_.durations(decision_.head(layout_.size()));
@@ -55,8 +55,8 @@ OptimizerResult TrajectoryOptimizer::finish(const LbfgsResult& run) {
 
 double TrajectoryOptimizer::evaluate(const Lbfgs::Point& decision, Lbfgs::Gradient gradient) {
   const Minco::Durations durations = layout_.durations(decision);
-  // Far beyond any sensible motion, powers of the duration lose all digits: a step too long for the line
-  // search.
+  // Far beyond any sensible motion, powers of the duration lose all digits: the line search takes this as a
+  // step too long.
   constexpr double kShortest = 1e-3;  // [s]
   constexpr double kLongest = 1e3;    // [s]
   if (!(durations.minCoeff() > kShortest && durations.maxCoeff() < kLongest)) {

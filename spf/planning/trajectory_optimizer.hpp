@@ -29,8 +29,9 @@ struct TrajectorySeed {
   [[nodiscard]] int pieces() const { return static_cast<int>(durations.size()); }
 };
 
-/// A cost term of the caller's own over the nodes, called once per evaluation: adds to NodeSet::penalty(k),
-/// with gradients in position and, where it changes with absolute time, in time. Does not own the term.
+/// A further cost term of the caller over the nodes, called once per evaluation: adds to NodeSet::penalty(k),
+/// with gradients with respect to position and, where it depends on absolute time, to time. Does not own the
+/// term.
 class NodeTermRef {
  public:
   NodeTermRef() = default;
@@ -49,24 +50,25 @@ class NodeTermRef {
   void (*add_)(const void*, NodeSet&) = nullptr;
 };
 
-/// What one run minimises, besides the weights. Views: what they point to must live during the run.
+/// The problem of one run, besides the weights. The pointers must stay valid during the run.
 struct TrajectoryProblem {
   double start_time = 0.0;                         ///< [s] absolute time of the head
   MincoEnds ends;                                  ///< head and tail
-  int last_moving_node = 1 << 20;                  ///< nodes beyond it do not heed what moves
+  int last_moving_node = 1 << 20;                  ///< nodes beyond it ignore peers and moving obstacles
   const std::vector<MovingDisc>* discs = nullptr;  ///< peers, obstacles at constant velocity
   const std::vector<GuidePair>* static_pairs = nullptr;
-  const std::vector<GuidePair>* field_pairs = nullptr;   ///< guide points of the probability field
-  const std::vector<GuidePair>* frozen_pairs = nullptr;  ///< obstacles that stand (ES2): cost as static ones
+  const std::vector<GuidePair>* field_pairs = nullptr;  ///< guide points of the probability field
+  const std::vector<GuidePair>* frozen_pairs =
+      nullptr;  ///< obstacles taken as fixed (ES2): cost as static ones
   // Factors on weights, raised after a failed check.
   double peer_factor = 1.0;
   double dynamic_factor = 1.0;
   double static_factor = 1.0;
   double limits_factor = 1.0;
-  NodeTermRef extra;  ///< a term of the caller's own
+  NodeTermRef extra;  ///< a further term of the caller
 };
 
-/// How a run ended.
+/// Result of a run.
 struct OptimizerResult {
   LbfgsOutcome outcome = LbfgsOutcome::not_finite;
   double cost = 0.0;
@@ -80,8 +82,8 @@ class TrajectoryOptimizer {
   /// Throws std::invalid_argument when parameters are out of range.
   TrajectoryOptimizer(const PlannerParameters& planner, const RobotParameters& robot);
 
-  /// Minimises from the seed. After it, solution(), nodes() and trajectory() describe the result (also when
-  /// the outcome is a failure: then the best point met).
+  /// Minimises from the seed. After it, solution(), nodes() and trajectory() describe the result (the best
+  /// point found, when the outcome is a failure).
   OptimizerResult optimise(const TrajectoryProblem& problem, const TrajectorySeed& seed) {
     return optimise(problem, seed, [](const NodeSet&) { return LbfgsSignal::proceed; });
   }
@@ -97,11 +99,11 @@ class TrajectoryOptimizer {
     return finish(run);
   }
 
-  /// Solves MINCO for a seed and evaluates its nodes without optimising, such as to look for conflicts first.
+  /// Solves MINCO for a seed and evaluates its nodes without optimising, for example to find conflicts first.
   void set(const TrajectoryProblem& problem, const TrajectorySeed& seed);
 
-  /// Whole cost and gradient by the decision vector (decision_vector.hpp) for the problem of the last
-  /// set/optimise.
+  /// Total cost and its gradient with respect to the decision vector (decision_vector.hpp) for the problem of
+  /// the last set/optimise.
   double evaluate(const Lbfgs::Point& decision, Lbfgs::Gradient gradient);
 
   [[nodiscard]] const TrajectorySeed& solution() const { return solution_; }

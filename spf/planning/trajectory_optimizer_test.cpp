@@ -7,7 +7,7 @@
 namespace spf {
 namespace {
 
-/// A run of 4 m with a half plane in the way and a term of the caller's own.
+/// A run of 4 m with a half plane across the path and a further term of the caller.
 struct Fixture {
   std::vector<GuidePair> pairs;
   std::vector<MovingDisc> discs;

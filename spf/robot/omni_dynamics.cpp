@@ -46,16 +46,15 @@ void OmniDynamics::step(double dt, const Eigen::Vector3d& commanded_wheel_speeds
   Eigen::Vector3d command = Eigen::Vector3d::Zero();
   if (commanded_wheel_speeds.allFinite()) command = commanded_wheel_speeds.cwiseMax(-limit).cwiseMin(limit);
 
-  // 1. The twist that the speed loop wants at the end of the step.
+  // 1. The twist that the speed loop demands at the end of the step.
   const double heading = state_.pose_world.heading;
   const Eigen::Vector3d twist_world = state_.twist_world;
   const double approach = lag > 0.0 ? -std::expm1(-dt / lag) : 1.0;
   const Eigen::Vector3d speeds = wheel_speeds();
   const Eigen::Vector3d wanted_body = kinematics_.twist_body(speeds + approach * (command - speeds));
 
-  // 2. The wrench and the torques that lead there. Wrenches act along the body axes of the mid-step, so that
-  // the
-  //    force that turns the velocity with the body (centripetal) is part of the demand.
+  // 2. The wrench and the torques that lead there. Wrenches act along the body axes of the mid-step, so
+  //    that the force that turns the velocity with the body (centripetal) is part of the demand.
   const double wanted_turn = 0.5 * dt * (twist_world.z() + wanted_body.z());
   const Eigen::Vector3d wanted_change = twist_in_world(wanted_body, heading + wanted_turn) - twist_world;
   const Eigen::Vector3d wanted_wrench =
@@ -63,9 +62,8 @@ void OmniDynamics::step(double dt, const Eigen::Vector3d& commanded_wheel_speeds
   const double max_torque = parameters_.max_wheel_torque;
   wheel_torques_ = torques_for(wanted_wrench).cwiseMax(-max_torque).cwiseMin(max_torque);
 
-  // 3. What the clipped torques make of it: yaw first, since the force turns with the body; then trapezoids,
-  // for
-  //    which the work of the force is exactly the change of kinetic energy.
+  // 3. The motion under the clipped torques: yaw first, since the force turns with the body; then
+  //    trapezoids, for which the work of the force is exactly the change of kinetic energy.
   const Eigen::Vector3d wrench = wrench_body(wheel_torques_);
   const double yaw_rate = twist_world.z() + dt * wrench.z() / inertia_.z();
   const double turn = 0.5 * dt * (twist_world.z() + yaw_rate);

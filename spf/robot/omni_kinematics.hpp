@@ -1,9 +1,9 @@
 // Kinematics of a robot on three omni wheels: rim speeds from the motion of the body and back (eq. 14), and
-// the rotation between body and world (eq. 16). Eq. 14 as printed swaps sine and cosine of 60 deg, which is
-// no robot with wheels every 120 deg (its drive directions stand at -90, 60 and 120 deg). Here the matrix is
-// built from the wheels' angles; the paper's signs are kept. Frames: world; body (x along the axle of wheel 1
-// when first_wheel_angle is 0). A twist is (x, y, yaw rate) [m/s, m/s, rad/s]; wheel speeds are speeds of the
-// rim [m/s].
+// the rotation between body and world (eq. 16). Eq. 14 as printed swaps sine and cosine of 60 deg, which does
+// not describe a robot with wheels every 120 deg (its drive directions are -90, 60 and 120 deg). Here the
+// matrix is built from the wheels' angles; the paper's signs are kept. Frames: world; body (x along the axle
+// of wheel 1 when first_wheel_angle is 0). A twist is (x, y, yaw rate) [m/s, m/s, rad/s]; wheel speeds are
+// speeds of the rim [m/s].
 #pragma once
 
 #include <Eigen/Core>
@@ -39,7 +39,7 @@ class OmniKinematics {
   [[nodiscard]] Eigen::Vector3d twist_body(const Eigen::Vector3d& wheel_speeds) const;
   [[nodiscard]] Eigen::Vector3d twist_world(const Eigen::Vector3d& wheel_speeds, double heading) const;
 
-  /// Limit of every rim speed [m/s], both ways.
+  /// Limit of every rim speed [m/s], in both directions.
   [[nodiscard]] double max_wheel_speed() const { return max_wheel_speed_; }
   /// The largest factor by which these wheel speeds may be multiplied within the limits: below 1 when they
   /// exceed them, infinite at standstill. Slowing a motion down in time by it scales all its velocities.

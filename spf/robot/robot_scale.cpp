@@ -3,11 +3,11 @@
 namespace spf {
 namespace {
 
-double stopping_way(const RobotParameters& robot) {
+double stopping_distance(const RobotParameters& robot) {
   return robot.max_speed * robot.max_speed / robot.max_acceleration;
 }
 
-/// Time to stop, and to leave the place that the robot takes: 1.3 s for the standard robot.
+/// Time to stop and to clear the robot's own footprint: 1.3 s for the standard robot.
 double response_time(const RobotParameters& robot) {
   return robot.max_speed / robot.max_acceleration + robot.radius / robot.max_speed;
 }
@@ -16,8 +16,8 @@ double response_time(const RobotParameters& robot) {
 
 RobotScale::RobotScale(const RobotParameters& robot, const RobotParameters& standard)
     : size_{robot.radius / standard.radius},
-      way_{std::max(robot.radius, 0.3 * stopping_way(robot)) /
-           std::max(standard.radius, 0.3 * stopping_way(standard))},
+      distance_{std::max(robot.radius, 0.3 * stopping_distance(robot)) /
+                std::max(standard.radius, 0.3 * stopping_distance(standard))},
       speed_{robot.max_speed / standard.max_speed},
       time_{response_time(robot) / response_time(standard)} {}
 
@@ -26,7 +26,7 @@ double RobotScale::factor(Scale scale) const {
     case Scale::size:
       return size_;
     case Scale::stopping_distance:
-      return way_;
+      return distance_;
     case Scale::speed:
       return speed_;
     case Scale::time:
@@ -36,7 +36,7 @@ double RobotScale::factor(Scale scale) const {
     case Scale::velocity_diffusion:
       return speed_ * speed_ / time_;
     case Scale::position_diffusion:
-      return way_ * way_ / time_;
+      return distance_ * distance_ / time_;
   }
   return 1.0;
 }

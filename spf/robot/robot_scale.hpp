@@ -1,6 +1,6 @@
-// How large, fast and nimble a robot is compared with the standard one, RobotParameters{} (radius 0.3 m, 1
-// m/s, 1 m/s^2), for which the defaults of all parameters are written down. A toy car and a fork lift then
-// start from the same behaviour in their own scale.
+// Size, speed and agility of a robot relative to the standard one, RobotParameters{} (radius 0.3 m, 1 m/s, 1
+// m/s^2), for which the defaults of all parameters are written down. A toy car and a fork lift then start
+// from the same behaviour at their own scale.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ class RobotScale {
   /// What a default with this scale is multiplied with [1].
   [[nodiscard]] double factor(Scale scale) const;
 
-  // ---- as a visitor of visit_fields: scales every field that has a ScaledUnit, within its range.
+  // As a visitor of visit_fields: scales every field that has a ScaledUnit, within its range.
   void operator()(const char* /*name*/, double& value, ScaledUnit unit, Range range,
                   const char* /*what*/) const {
     const double one = factor(unit.scale);
@@ -49,13 +49,13 @@ class RobotScale {
     Parameters::visit_fields(parameters, *this);
   }
 
-  double size_;   // [1]
-  double way_;    // [1]
-  double speed_;  // [1]
-  double time_;   // [1]
+  double size_;      // [1]
+  double distance_;  // [1]
+  double speed_;     // [1]
+  double time_;      // [1]
 };
 
-/// Parameters that suit one robot, made to suit another.
+/// Parameters made for the standard robot, scaled to another.
 template <class Parameters>
 [[nodiscard]] Parameters scaled(Parameters parameters, const RobotScale& scale) {
   scale.apply(parameters, 0);

@@ -7,19 +7,19 @@ namespace {
 
 struct Numbers {
   double margin = 0.1;     // [m]
-  double way = 10.0;       // [m]
+  double distance = 10.0;  // [m]
   double speed = 0.5;      // [m/s]
-  double patience = 2.0;   // [s]
+  double response = 2.0;   // [s]
   double diffusion = 0.4;  // [m^2/s^3]
-  double period = 0.1;     // [s] of a sensor, say: no matter of the robot
+  double period = 0.1;     // [s] of a sensor, say: independent of the robot
   int count = 3;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("margin", self.margin, kMetresBySize, Range{0.0, 0.3}, "margin");
-    visit("way", self.way, kMetresByStopping, Range{0.0, 1000.0}, "way");
+    visit("distance", self.distance, kMetresByStopping, Range{0.0, 1000.0}, "distance");
     visit("speed", self.speed, kSpeedByRobot, Range{0.0, 10.0}, "speed");
-    visit("patience", self.patience, kSecondsByRobot, Range{0.0, 100.0}, "patience");
+    visit("response", self.response, kSecondsByRobot, Range{0.0, 100.0}, "response");
     visit("diffusion", self.diffusion, ScaledUnit{"m^2/s^3", Scale::velocity_diffusion}, Range{0.0, 1.0},
           "diffusion");
     visit("period", self.period, "s", Range{0.0, 100.0}, "period");
@@ -62,18 +62,18 @@ RobotParameters robot_of(double radius, double speed, double acceleration) {
 TEST(RobotScale, LeavesTheStandardRobotsDefaultsAlone) {
   const Numbers numbers = scaled(Numbers{}, RobotScale{RobotParameters{}});
   EXPECT_EQ(numbers.margin, 0.1);  // exact: factors are 1
-  EXPECT_EQ(numbers.way, 10.0);
+  EXPECT_EQ(numbers.distance, 10.0);
   EXPECT_EQ(numbers.speed, 0.5);
-  EXPECT_EQ(numbers.patience, 2.0);
+  EXPECT_EQ(numbers.response, 2.0);
 }
 
 // Half as large and half as fast, in the same time: a model of the standard robot at scale 1 : 2.
 TEST(RobotScale, HalvesLengthsAndSpeedsButNoTimesOfAModelAtHalfScale) {
   const Outer outer = scaled(Outer{}, RobotScale{robot_of(0.15, 0.5, 0.5)});
   EXPECT_DOUBLE_EQ(outer.inner.margin, 0.05);
-  EXPECT_DOUBLE_EQ(outer.inner.way, 5.0);
+  EXPECT_DOUBLE_EQ(outer.inner.distance, 5.0);
   EXPECT_DOUBLE_EQ(outer.inner.speed, 0.25);
-  EXPECT_DOUBLE_EQ(outer.inner.patience, 2.0);
+  EXPECT_DOUBLE_EQ(outer.inner.response, 2.0);
   EXPECT_DOUBLE_EQ(outer.inner.diffusion, 0.1);
   EXPECT_EQ(outer.inner.period, 0.1);
   EXPECT_EQ(outer.inner.count, 3);
@@ -93,7 +93,7 @@ TEST(RobotScale, GivesARobotThatStopsSlowlyMoreTimeAndWay) {
   EXPECT_NEAR(scale.factor(Scale::stopping_distance), 10.0, 1e-12);
 }
 
-// Slow robots need as long to leave their place, however well they brake.
+// Slow robots take long to clear their own footprint, however well they brake.
 TEST(RobotScale, GivesARobotThatIsSlowForItsSizeMoreTime) {
   EXPECT_NEAR(RobotScale(robot_of(0.3, 0.1, 1.0)).factor(Scale::time), 3.1 / 1.3, 1e-12);
 }

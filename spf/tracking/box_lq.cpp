@@ -11,7 +11,7 @@ namespace {
 
 using namespace box_lq;  // NOLINT: the arithmetic of the stages, of this solver alone
 
-// Of the residual against the size of the gradient's parts: their rounding is some 1e-14 of it.
+// Residual relative to the size of the gradient's parts, which are rounded to some 1e-14.
 constexpr double kRelativeTolerance = 1e-11;
 constexpr double kAbsoluteTolerance = 1e-10;
 constexpr int kFallbackSteps = 40;
@@ -98,7 +98,7 @@ double BoxLqSolver::residual(const BoxLqProblem& problem, const InputSequence& i
 
 void BoxLqSolver::hold_inputs_at_bounds(const BoxLqProblem& problem, const InputSequence& inputs) {
   const double bound =
-      (1.0 - 1e-13) * problem.input_limit;  // a step that ends on the limit may round to beside it
+      (1.0 - 1e-13) * problem.input_limit;  // a step that ends on the limit may round to just inside
   for (int k = 0; k < problem.steps; ++k)
     for (int i = 0; i < 3; ++i) {
       const double input = inputs[index(k)][i];
@@ -172,13 +172,13 @@ void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence
 }
 
 // Fills the steps of inputs and states and returns the slope of the cost along them. clip_first: later inputs
-// answer to the clipping of earlier ones, the better guess. Otherwise the scaled Newton direction is
+// react to the clipping of earlier ones, which is the better guess. Otherwise the scaled Newton direction is
 // projected on the box, which is a descent direction for a small enough scale (Bertsekas' projected Newton
 // method).
 double BoxLqSolver::candidate(const BoxLqProblem& problem, const InputSequence& inputs, double scale,
                               bool clip_first) {
   double slope = 0.0;
-  Vector3d answered = Vector3d::Zero();  // the state step that the feedback sees
+  Vector3d answered = Vector3d::Zero();  // the state step to which the feedback responds
   Vector3d answered_input = Vector3d::Zero();
   state_steps_[0].setZero();
   for (int k = 0; k < problem.steps; ++k) {
@@ -199,7 +199,7 @@ double BoxLqSolver::candidate(const BoxLqProblem& problem, const InputSequence& 
 }
 
 // Leaves the result of the candidate steps in the trial sequences; true when the cost falls as its slope
-// promises.
+// predicts.
 bool BoxLqSolver::improves(const BoxLqProblem& problem, const InputSequence& inputs, double cost,
                            double slope) {
   if (!(slope < 0.0)) return false;
@@ -208,7 +208,7 @@ bool BoxLqSolver::improves(const BoxLqProblem& problem, const InputSequence& inp
     trial_inputs_[index(k)] = clipped(inputs[index(k)] + input_steps_[index(k)], problem.input_limit);
     trial_states_[index(k + 1)] = states_[index(k + 1)] + state_steps_[index(k + 1)];
   }
-  constexpr double kShare = 1e-3;  // of the promised decrease; a rounding of the cost is forgiven
+  constexpr double kShare = 1e-3;  // of the predicted decrease; rounding of the cost is tolerated
   return box_lq_cost(problem, trial_states_, trial_inputs_) <= cost + kShare * slope + 1e-15 * cost;
 }
 
@@ -255,7 +255,7 @@ bool BoxLqSolver::refine(const BoxLqProblem& problem, InputSequence& inputs, int
     bool better = improves(problem, inputs, cost, candidate(problem, inputs, 1.0, true));
     for (double scale = 1.0; !better && scale > 1e-12; scale *= 0.5)
       better = improves(problem, inputs, cost, candidate(problem, inputs, scale, false));
-    // No descent left above rounding.
+    // No descent beyond rounding is left.
     if (!better) return residual(problem, inputs) <= 1e3 * tolerance;
     inputs = trial_inputs_;
     states_ = trial_states_;

@@ -1,9 +1,9 @@
 // A finite-horizon linear-quadratic problem with hard bounds on the inputs and quadratically soft bounds on
 // the states: one Gauss-Newton step of the MPC (eq. 19). Solved by a dual active set in range-space form: one
 // Riccati factorisation without bounds, then one Riccati solve per bound that becomes active; a soft bound
-// differs from a hard one by a term on the diagonal of the small Schur matrix. If that does not settle in
-// time, a projected Newton method takes over, whose every iterate is feasible and no worse than the one
-// before.
+// differs from a hard one by a term on the diagonal of the small Schur matrix. If that does not finish within
+// its step limit, a projected Newton method takes over, each of whose iterates is feasible and no worse than
+// the one before.
 //
 //   minimise   sum_{k=1..H} |z_k - reference_k|_Q^2 + slack_weight |violation of [lower, upper] by z_k|^2
 //            + sum_{k=0..H-1} effort_weight |u_k - input_reference_k|^2 + rate_weight |u_k - u_{k-1}|^2
@@ -51,7 +51,7 @@ using StateSequence = std::array<Eigen::Vector3d, kMaxHorizon + 1>;
 
 namespace box_lq {
 
-/// Where step k stands in a sequence.
+/// Index of step k in a sequence.
 [[nodiscard]] inline std::size_t index(int k) {
   return static_cast<std::size_t>(k);
 }
@@ -68,16 +68,16 @@ namespace box_lq {
 struct BoxLqOutcome {
   bool solved = false;       ///< to rounding; else the inputs are feasible and the best found
   bool fell_back = false;    ///< the projected Newton method had to take over
-  int active_set_steps = 0;  ///< bounds taken up or dropped
+  int active_set_steps = 0;  ///< bounds activated or dropped
 };
 
 /// Fixed memory; construct once, solve often.
 class BoxLqSolver {
  public:
-  /// Replaces `inputs`, any guess, by the minimiser. The bounds that were active at the last minimum are
-  /// tried first.
+  /// Replaces `inputs`, any initial guess, by the minimiser. The bounds that were active at the last minimum
+  /// are tried first.
   BoxLqOutcome solve(const BoxLqProblem& problem, InputSequence& inputs, int max_steps);
-  /// Drops the memory of active bounds. It changes the work, not the minimum.
+  /// Drops the warm start (the last active bounds). It changes the work, not the minimum.
   void forget() { active_count_ = 0; }
 
   /// The projected Newton method alone: improves `inputs`, first clipped to the limit. True when at the

@@ -130,7 +130,7 @@ void BoxLqSolver::move_along(const BoxLqProblem& problem, InputSequence& inputs,
   }
 }
 
-// Adds a bound whose response lies ready in the first free place, and its row of the Schur matrix.
+// Activates a bound whose response lies in the first free slot, and adds its row of the Schur matrix.
 void BoxLqSolver::append_active(const BoxLqProblem& problem, const Bound& bound, double multiplier) {
   const std::size_t last = index(active_count_);
   active_[last] = bound;
@@ -156,7 +156,7 @@ void BoxLqSolver::drop_active(int position) {
       schur_[index(i)][index(j)] = schur_[index(i + 1)][index(j < position ? j : j + 1)];
   }
   --active_count_;
-  // The place of the one being taken up, if any, follows the active ones.
+  // The slot of the bound being activated, if any, follows the active ones.
   order_[index(active_count_)] = order_[index(active_count_ + 1)];
   order_[index(active_count_ + 1)] = freed;
 }
@@ -221,7 +221,7 @@ bool BoxLqSolver::start_from_last_active_set(const BoxLqProblem& problem, InputS
 }
 
 // Raises the multiplier of a violated bound until the bound holds, dropping active bounds whose multiplier
-// would turn negative on the way.
+// would turn negative meanwhile.
 bool BoxLqSolver::take_up(const BoxLqProblem& problem, InputSequence& inputs, const Bound& bound,
                           double violation, int max_steps, int& steps) {
   if (active_count_ == kMaxActive) return false;

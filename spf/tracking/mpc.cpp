@@ -49,8 +49,8 @@ const MpcResult& ModelPredictiveController::solve(const MpcProblem& problem) {
   }
   set_up(problem);
 
-  // 1. About the reference. The heading of z_0 is the measured one, so that the first command has no such
-  // error.
+  // 1. About the reference. The heading of z_0 is the measured one, so that the first command has no
+  //    linearisation error.
   trial_inputs_ = problem.reference.wheel_speeds;
   trial_states_ = problem.reference.pose;
   trial_states_[0] = problem.initial_pose;
@@ -76,7 +76,7 @@ const MpcResult& ModelPredictiveController::solve(const MpcProblem& problem) {
     result_.active_set_steps += outcome.active_set_steps;
     result_.fell_back = result_.fell_back || outcome.fell_back;
     cost = move_towards_trial(problem, cost);
-    if (cost <= best_cost + 1e-12 * (1.0 + best_cost)) {  // of equals, the later
+    if (cost <= best_cost + 1e-12 * (1.0 + best_cost)) {  // of two equals, the later
       best_cost = cost;
       best_inputs_ = result_.wheel_speeds;
     }
@@ -133,10 +133,9 @@ double ModelPredictiveController::roll_out(const MpcProblem& problem, const Inpu
   return box_lq_cost(lq_, states, inputs);
 }
 
-// Goes from the last solution towards the trial inputs, as far as the nonlinear cost asks for. Full steps
-// converge fast while errors are moderate; far from the reference they overshoot to and fro, so the lowest
-// point of the parabola through three costs is tried too. The input bounds are convex, hence every point
-// between is feasible.
+// Line search from the last solution towards the trial inputs on the nonlinear cost. Full steps converge fast
+// while errors are moderate; far from the reference they oscillate, so the lowest point of the parabola
+// through three costs is tried too. The input bounds are convex, hence every point between is feasible.
 double ModelPredictiveController::move_towards_trial(const MpcProblem& problem, double cost) {
   constexpr double kSmallChange = 1e-3;  // [m/s] below which full steps are safe
   constexpr int kHalvings = 3;
@@ -157,14 +156,14 @@ double ModelPredictiveController::move_towards_trial(const MpcProblem& problem, 
     if (lowest_cost < trial_cost) fraction = lowest;
     trial_cost = try_fraction(problem, fraction);
   }
-  // Near the optimum costs agree to rounding, and the full step is the better judge.
+  // Near the optimum costs agree to rounding, and the full step is taken.
   const double acceptable = cost + 1e-12 * (1.0 + cost);
   for (int i = 0; i < kHalvings && trial_cost > acceptable; ++i) {
     fraction *= 0.5;
     trial_cost = try_fraction(problem, fraction);
   }
-  // Along a stiff wall every shorter way may cost more as well, since the wall bends for the linear model.
-  // The full step leads on; solve() remembers the best.
+  // Along a stiff wall every shorter step may cost more as well, since the wall is curved for the linear
+  // model. The full step makes progress; solve() remembers the best.
   if (trial_cost > acceptable) {
     fraction = 1.0;
     trial_cost = try_fraction(problem, fraction);

@@ -1,10 +1,10 @@
 // The extended-state model predictive controller (eq. 19): wheel speeds that lead the robot along the
-// reference. Departures from the printed problem, each because the print cannot be meant: z_1..z_H are
-// penalised (the print leaves z_H free, so that u_{H-1} = 0 always); the effort term asks for the reference's
-// wheel speeds instead of standstill; state bounds are soft (an infeasible start must still give a command)
-// and never bound z_0; the disturbance that the observer found is held over the horizon: z_{k+1} = z_k + dt
-// (A(heading_k) W^-1 u_k + d). Frame: world; poses are vectors (x, y, heading) as in reference_sampler.hpp,
-// wheel speeds are rim speeds [m/s].
+// reference. Departures from the printed problem, where it cannot be meant as printed: z_1..z_H are penalised
+// (the print leaves z_H free, so that always u_{H-1} = 0); the effort term asks for the reference's wheel
+// speeds instead of standstill; state bounds are soft (an infeasible start must still give a command) and
+// never bound z_0; the observer's disturbance is held over the horizon: z_{k+1} = z_k + dt (A(heading_k) W^-1
+// u_k + d). Frame: world; poses are vectors (x, y, heading) as in reference_sampler.hpp, wheel speeds are rim
+// speeds [m/s].
 #pragma once
 
 #include <Eigen/Core>
@@ -61,8 +61,9 @@ struct MpcProblem {
 enum class MpcStatus {
   converged,        ///< to the tolerance
   iteration_limit,  ///< the usual end of a few iterations; the command is near-optimal
-  step_limit,       ///< an active set was not settled in time; the command is feasible, perhaps not optimal
-  invalid_problem,  ///< not finite, or of another horizon: the command is to stand
+  step_limit,  ///< an active set was not found within its step limit; the command is feasible, perhaps not
+               ///< optimal
+  invalid_problem,  ///< not finite, or of another horizon: the command is zero
 };
 
 struct MpcResult {
@@ -75,12 +76,12 @@ struct MpcResult {
   double last_change = 0.0;        ///< [m/s] of a wheel speed by the last iteration
   int iterations = 0;
   int active_set_steps = 0;  ///< over all iterations
-  bool fell_back = false;    ///< the slower method had to take over in one of them
+  bool fell_back = false;    ///< in one of them the slower method had to take over
 };
 
-/// Gauss-Newton on the nonlinear problem. The first iteration linearises about the reference (never about the
-/// old solution: after a jump of the estimate that is a hundred times worse), each further one about the last
-/// solution. Never throws or allocates after construction.
+/// Gauss-Newton on the nonlinear problem. The first iteration linearises about the reference (not about the
+/// previous tick's solution: after a jump of the estimate that is a hundred times worse), each further one
+/// about the last solution. Never throws or allocates after construction.
 class ModelPredictiveController {
  public:
   /// Throws std::invalid_argument on parameters out of range or bounds that cross.

@@ -213,7 +213,7 @@ TEST(MpcAgainstIpoptSlow, TwoIterationsAreNearOptimal) {
   EXPECT_LT(found.first_input, 5e-2);
 }
 
-// Far off, where the wheels saturate all the way and Gauss-Newton alone would swing to and fro.
+// Far off, where the wheels saturate throughout and Gauss-Newton alone would oscillate.
 TEST(MpcAgainstIpoptSlow, TwoIterationsAreUsableFarFromTheReference) {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = make_ipopt(1e-10);
   MpcInstanceOptions options;

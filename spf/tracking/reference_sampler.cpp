@@ -21,9 +21,10 @@ PoseAndTwist evaluate(const Trajectory& trajectory, double time) {
           {flat.velocity_world.x(), flat.velocity_world.y(), heading.yaw_rate}};
 }
 
-/// The plan's last discrete point at or before a time, standing.
+/// The plan's last discrete point at or before a time, with zero twist.
 PoseAndTwist evaluate_held(const Trajectory& trajectory, double time, double interval) {
-  // A point counts as reached a rounding before its time, so that ticks at multiples of the interval see it.
+  // A point counts as reached slightly (by rounding) before its time, so that ticks at multiples of the
+  // interval use it.
   const double index = std::floor((time - trajectory.start_time()) / interval + 1e-9);
   PoseAndTwist held = evaluate(trajectory, trajectory.start_time() + std::max(index, 0.0) * interval);
   held.twist.setZero();
@@ -58,7 +59,7 @@ Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest&
     for (std::size_t k = 1; k <= static_cast<std::size_t>(request.steps); ++k) reference.pose[k] += shift;
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(request.steps); ++k) {
-    Eigen::Vector3d twist = Eigen::Vector3d::Zero();  // held points ask for no speed of their own
+    Eigen::Vector3d twist = Eigen::Vector3d::Zero();  // held points ask for zero velocity
     if (parameters.self_sampling) twist = (reference.pose[k + 1] - reference.pose[k]) / request.dt;
     reference.wheel_speeds[k] =
         kinematics.saturated(kinematics.wheel_speeds_from_world(twist, reference.pose[k].z()));

@@ -42,7 +42,7 @@ struct ReferenceRequest {
   /// first step to last dt; on a curve the first command would then run ahead by half the difference.
   /// Points 1..H are shifted so that the first step has the mean velocity of the time it is held.
   double hold_time = 0.0;
-  Pose2 robot_world;  ///< for the heading's turn count
+  Pose2 robot_world;  ///< for the number of turns of the heading
 };
 
 struct Reference {

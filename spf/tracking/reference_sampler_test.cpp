@@ -113,7 +113,7 @@ TEST(ReferenceSampler, WithoutSelfSamplingHoldsThePlansPoints) {
   ReferenceParameters parameters;
   parameters.self_sampling = false;
   const Reference reference = sample_reference(straight(), request_at(2.35), kKinematics, parameters);
-  // Points of the plan stand at 1.0, 1.5, 2.0, 2.5 s: times 2.35 and 2.45 see the third, 2.55 to 2.85 the
+  // Points of the plan lie at 1.0, 1.5, 2.0, 2.5 s: times 2.35 and 2.45 see the third, 2.55 to 2.85 the
   // fourth.
   const double expected[6] = {0.8, 0.8, 1.2, 1.2, 1.2, 1.2};
   for (std::size_t k = 0; k <= 5; ++k) EXPECT_NEAR(reference.pose[k].x(), expected[k], 1e-12);

@@ -11,7 +11,7 @@ namespace spf {
 
 struct TrackerParameters {
   double control_period = 0.05;  ///< [s] between control ticks
-  bool compensate_lag = true;    ///< reckon with RobotParameters::motor_lag; the paper does not
+  bool compensate_lag = true;    ///< model RobotParameters::motor_lag; the paper does not
   ObserverParameters observer;
   ReferenceParameters reference;
   MpcParameters mpc;
@@ -21,7 +21,7 @@ struct TrackerParameters {
     visit("control_period", self.control_period, "s", Range{1e-3, 1.0},
           "time between control ticks; our choice");
     visit("compensate_lag", self.compensate_lag,
-          "reckon with the first-order lag of the motors in observer and MPC; our addition");
+          "model the first-order lag of the motors in observer and MPC; our addition");
     visit.group("observer", self.observer);
     visit.group("reference", self.reference);
     visit.group("mpc", self.mpc);

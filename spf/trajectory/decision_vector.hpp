@@ -11,7 +11,7 @@
 
 namespace spf {
 
-/// Places of waypoints and taus in the decision vector of a motion of `piece_count` pieces.
+/// Where waypoints and taus lie in the decision vector of a motion of `piece_count` pieces.
 struct DecisionLayout {
   int piece_count = 0;
 
@@ -42,7 +42,7 @@ struct DecisionLayout {
     for (int i = 0; i < piece_count; ++i) decision[waypoint_entries() + i] = tau_from_duration(durations[i]);
   }
 
-  /// Writes a gradient by waypoints and durations as one by the decision vector.
+  /// Converts a gradient with respect to waypoints and durations to one with respect to the decision vector.
   void pack_gradient(const MincoGradient& gradient, const Eigen::Ref<const Eigen::VectorXd>& decision,
                      Eigen::Ref<Eigen::VectorXd> wrt_decision) const {
     assert(decision.size() == size() && wrt_decision.size() == size());

@@ -15,15 +15,15 @@ struct RateTrapezoid {
   [[nodiscard]] double duration() const { return ramp_in + cruise + ramp_out; }
 };
 
-/// Least time from a rate to rest over a signed turn [rad]. Seen from the side to which the robot has to turn
-/// after (or instead of) braking, the rate rises to a peak sqrt(a D + rate^2 / 2), cut off at the limit, and
-/// sinks to zero.
+/// Least time from a rate to rest over a signed turn [rad]. Counted positive in the direction in which the
+/// robot turns after (or instead of) braking, the rate rises to a peak sqrt(a D + rate^2 / 2), cut off at the
+/// limit, and falls to zero.
 RateTrapezoid fastest_turn(double turn, double rate, double max_rate, double max_acceleration) {
   const double braking_turn = rate * std::fabs(rate) / (2.0 * max_acceleration);
   const double side = turn >= braking_turn ? 1.0 : -1.0;
-  const double way = side * turn;
+  const double angle = side * turn;
   const double start = side * rate;
-  const double peak = std::sqrt(std::max(0.0, max_acceleration * way + 0.5 * start * start));
+  const double peak = std::sqrt(std::max(0.0, max_acceleration * angle + 0.5 * start * start));
   const double top = std::min(peak, max_rate);
 
   RateTrapezoid result;
@@ -31,7 +31,7 @@ RateTrapezoid fastest_turn(double turn, double rate, double max_rate, double max
   result.ramp_in = std::fabs(top - start) / max_acceleration;
   result.ramp_out = top / max_acceleration;
   const double ramps = 0.5 * (start + top) * result.ramp_in + 0.5 * top * result.ramp_out;
-  if (peak > max_rate) result.cruise = std::max(0.0, (way - ramps) / top);
+  if (peak > max_rate) result.cruise = std::max(0.0, (angle - ramps) / top);
   return result;
 }
 
@@ -51,7 +51,7 @@ HeadingProfile::HeadingProfile(double start_time, const HeadingState& initial, d
   RateTrapezoid best = fastest_turn(nearest, initial_rate_, max_yaw_rate, max_yaw_acceleration);
   for (const double turn : {nearest - 2.0 * kPi, nearest + 2.0 * kPi}) {
     const RateTrapezoid other = fastest_turn(turn, initial_rate_, max_yaw_rate, max_yaw_acceleration);
-    constexpr double kClearlyFaster = 1e-9;  // [s] so that rounding does not choose between two equal ways
+    constexpr double kClearlyFaster = 1e-9;  // [s] so that rounding does not choose between two equal turns
     if (other.duration() < best.duration() - kClearlyFaster) best = other;
   }
   cruise_rate_ = best.cruise_rate;

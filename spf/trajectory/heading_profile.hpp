@@ -28,9 +28,9 @@ struct HeadingPhases {
 };
 
 /// Turns from an initial heading and yaw rate to a target heading, at rest there, under limits of yaw rate
-/// and yaw acceleration (a trapezoid of the rate), and holds it. It turns the way that takes less time: the
-/// shorter one from rest, and not against a spin that is already under way unless that pays. Before its start
-/// it stands at the initial heading. Closed form; queries never allocate.
+/// and yaw acceleration (a trapezoid of the rate), and holds it. It turns in the direction that takes less
+/// time: the shorter one from rest, and against a spin already under way only if that is faster. Before its
+/// start it holds the initial heading. Closed form; queries never allocate.
 class HeadingProfile {
  public:
   /// Holds heading 0.
@@ -43,8 +43,8 @@ class HeadingProfile {
   HeadingProfile(double start_time, const HeadingState& initial, double target_heading, double max_yaw_rate,
                  double max_yaw_acceleration);
 
-  /// There and back without loss. Nothing, when the numbers are no such turn: not finite, a negative phase,
-  /// or phases that do not end at the target (to 1e-6 rad).
+  /// Lossless conversion to phases and back. Empty when the numbers are no such turn: not finite, a negative
+  /// phase, or phases that do not end at the target (to 1e-6 rad).
   [[nodiscard]] static std::optional<HeadingProfile> from_phases(const HeadingPhases& phases);
   [[nodiscard]] HeadingPhases phases() const;
 

@@ -108,23 +108,23 @@ TEST(HeadingProfile, NoBangBangTurnIsFaster) {
     double fastest = 1e9;
     const double w0 = turn.initial.yaw_rate;
     for (int circle = -4; circle <= 4; ++circle) {
-      const double way = angle_difference(turn.target, turn.initial.heading) + 2.0 * kPi * circle;
+      const double angle = angle_difference(turn.target, turn.initial.heading) + 2.0 * kPi * circle;
       for (const double limit : {-turn.max_rate, turn.max_rate}) {  // with a cruise
         const double ramps =
             (w0 + limit) / 2.0 * std::fabs(limit - w0) / a + limit * std::fabs(limit) / (2.0 * a);
-        const double cruise = (way - ramps) / limit;
+        const double cruise = (angle - ramps) / limit;
         if (cruise >= 0.0)
           fastest = std::min(fastest, std::fabs(limit - w0) / a + cruise + std::fabs(limit) / a);
       }
-      const auto way_with_peak = [&](double peak) {
+      const auto angle_with_peak = [&](double peak) {
         return (w0 + peak) / 2.0 * std::fabs(peak - w0) / a + peak * std::fabs(peak) / (2.0 * a);
       };
-      double low = -turn.max_rate;  // the way covered rises with the signed peak: bisect
+      double low = -turn.max_rate;  // the angle covered rises with the signed peak: bisect
       double high = turn.max_rate;
-      if (way_with_peak(low) > way || way_with_peak(high) < way) continue;
+      if (angle_with_peak(low) > angle || angle_with_peak(high) < angle) continue;
       for (int k = 0; k < 100; ++k) {
         const double middle = 0.5 * (low + high);
-        (way_with_peak(middle) < way ? low : high) = middle;
+        (angle_with_peak(middle) < angle ? low : high) = middle;
       }
       fastest = std::min(fastest, std::fabs(low - w0) / a + std::fabs(low) / a);
     }

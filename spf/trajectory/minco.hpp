@@ -1,7 +1,7 @@
 // MINCO (eq. 5-8): of all curves through given waypoints at given durations, the one with the least jerk
 // integral. It is the quintic spline with continuous derivatives up to the fourth; M(T) C = B(q) with M
-// banded, solved in O(N). Gradients with respect to coefficients come back to waypoints and durations through
-// the same factors (adjoint). Frame: world.
+// banded, solved in O(N). Gradients with respect to coefficients are propagated back to waypoints and
+// durations through the same factors (adjoint). Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,12 +49,12 @@ class Minco {
 
   /// Integral of |jerk|^2 over the motion [m^2/s^5].
   [[nodiscard]] double smoothness() const;
-  /// Adds `weight` times the smoothness's derivatives by coefficients (durations held) and by durations
-  /// (coefficients held).
+  /// Adds `weight` times the derivatives of the smoothness with respect to coefficients (durations fixed) and
+  /// durations (coefficients fixed).
   void add_smoothness_gradient(double weight, Coefficients& wrt_coefficients, Durations& wrt_durations) const;
 
-  /// Eq. 7-8. From the derivatives of a cost by coefficients (durations held) and by durations (coefficients
-  /// held) to the total derivatives by waypoints, durations and the tail.
+  /// Eq. 7-8. Turns the derivatives of a cost with respect to coefficients (durations fixed) and durations
+  /// (coefficients fixed) into total derivatives with respect to waypoints, durations and the tail.
   [[nodiscard]] MincoGradient propagate(const Coefficients& wrt_coefficients,
                                         const Durations& wrt_durations) const;
 

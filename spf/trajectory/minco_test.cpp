@@ -330,7 +330,7 @@ TEST(Minco, GradientByDurationsAndTailMatchesCentralDifferences) {
 
 TEST(Minco, DescentFindsTheBestTimeAndPlaceOfWaypoints) {
   // Rest to rest over a distance D at w per second: 720 D^2 / T^5 + w T is least at T = (3600 D^2 / w)^(1/6).
-  // Waypoints that are free in place and time cannot beat the single quintic, and can lie on it.
+  // Waypoints that are free in position and time cannot beat the single quintic, and can lie on it.
   constexpr double kDistance = 3.0;
   constexpr double kTimeWeight = 10.0;
   const double best_time = std::pow(3600.0 * kDistance * kDistance / kTimeWeight, 1.0 / 6.0);

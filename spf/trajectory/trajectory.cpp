@@ -55,7 +55,7 @@ double largest_norm(const QuinticPiece& piece) {
   return std::sqrt(largest);
 }
 
-/// Most that a piece can be long: no part of its velocity takes away from another.
+/// Upper bound of a piece's length [m], in which no terms of the velocity cancel.
 double length_bound(const QuinticPiece& piece) {
   double bound = 0.0;
   for (int k = 5; k >= 1; --k)

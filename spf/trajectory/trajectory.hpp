@@ -30,8 +30,8 @@ struct QuinticPiece {
   [[nodiscard]] Eigen::Vector2d jerk(double local_time) const;
 };
 
-/// Value type. Before its start it stands at its head position, after its end at its tail position, with zero
-/// velocity in both: a plan that is not renewed in time means "stand".
+/// Value type. Before its start it rests at its head position, after its end at its tail position, with zero
+/// velocity in both: a plan that is not renewed in time means "stop".
 class Trajectory {
  public:
   static constexpr int kMaxPieces = 32;
@@ -39,7 +39,7 @@ class Trajectory {
   Trajectory() = default;
   explicit Trajectory(double start_time) : start_time_{start_time} {}
 
-  /// A trajectory that stands at a place from start_time on (one piece of the given duration).
+  /// A trajectory that rests at a position from start_time on (one piece of the given duration).
   [[nodiscard]] static Trajectory standing(const Eigen::Vector2d& position_world, double start_time,
                                            double duration, const HeadingProfile& heading = {});
 

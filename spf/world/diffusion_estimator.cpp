@@ -15,8 +15,8 @@ constexpr double kLongLag = 1.0;        // [s]
 constexpr double kClip = 6.0;
 constexpr double kInnovationGate = 25.0;
 
-/// Part of the square that counts: nothing when it is a outlier, unless the one before was a outlier too;
-/// then it is no single event but an expectation that is too low.
+/// Part of the square that counts: none of an outlier, unless the previous square was an outlier too; then it
+/// is no single event, but the expectation is too low.
 double robust_part(double square, double expected, bool& outlier) {
   const double ratio = square / std::max(expected, 1e-12);
   const bool again = outlier;
@@ -103,7 +103,7 @@ void DiffusionEstimator::learn_from_increment(const Sample& last, const Sample& 
   const double expected = position_diffusion_ * dt;
   const double left_part = robust_part(0.5 * left.squaredNorm(), expected + noise, position_outlier_);
   if (left_part <= 0.0) return;
-  // What a sample says about the diffusion sinks with the noise that it also holds.
+  // The noisier a sample, the less it tells about the diffusion.
   const double trust = expected / (expected + noise);
   position_weight_ += trust * trust * dt;
   position_square_ += trust * trust * (left_part * 0.5 * left.squaredNorm() - noise);
@@ -149,8 +149,8 @@ void DiffusionEstimator::learn_from_difference(const Sample& now, double lag) {
   right_ += weight * (part * square - noise) / expected * row;
 }
 
-// Prior and data together. Increments tell both diffusions apart, so there the prior soon retires; for the
-// least squares it stays, since noisy positions alone leave the split between the two open.
+// Prior and data together. Increments of the velocity separate the two diffusions, so there the prior fades
+// soon; for the least squares it stays, since noisy positions alone leave the split between the two open.
 void DiffusionEstimator::solve() {
   double prior = kPriorDuration;
   double velocity_factor = 1.0;
@@ -175,7 +175,7 @@ void DiffusionEstimator::solve() {
     const double determinant = normal(0, 0) * normal(1, 1) - normal(0, 1) * normal(1, 0);
     position_factor = (right.x() * normal(1, 1) - right.y() * normal(0, 1)) / determinant;
     velocity_factor = (right.y() * normal(0, 0) - right.x() * normal(1, 0)) / determinant;
-    // When one of the two would be negative, it is nothing, and the other explains all.
+    // When one of the two would be negative, it is set to zero and the other explains all.
     if (position_factor < 0.0) velocity_factor = right.y() / normal(1, 1);
     if (velocity_factor < 0.0) position_factor = right.x() / normal(0, 0);
   }

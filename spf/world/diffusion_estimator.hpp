@@ -1,6 +1,6 @@
-// How restless a moving obstacle is, learnt from its motion: the diffusion of its position (white velocity
-// noise) and of its velocity (a random walk). Both are needed to say how uncertain its place will be in a
-// second or two.
+// Adaptive process noise of one moving obstacle, learnt from its motion: the diffusion of its position (white
+// velocity noise) and of its velocity (a random walk). Both are needed to predict how uncertain its position
+// will be in a second or two.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,15 +34,14 @@ struct DiffusionParameters {
   }
 };
 
-/// Learns from samples of one obstacle in the order of time. Two ways, by what a sample holds:
-///  - with velocity: the increments of the velocity, and what is left of the position's increments.
-///  Neighbouring
-///    increments that cancel out are noise of the reported velocity, not motion.
-///  - without: second differences of the position over 0.3 s and 1 s, whose variances mix both diffusions
-///  differently:
-///    Dp (t2 + r^2 t1) + Dv (t2^3 + r^2 t1^3) / 3 + (1 + (1 + r)^2 + r^2) sigma^2, r = t2 / t1, fitted by
-///    least squares.
-/// Single outliers (a bounce off a wall) are clipped or left out, so that they do not count as restlessness.
+/// Learns from samples of one obstacle in the order of time, by what a sample holds:
+///  - with velocity: from the increments of the velocity and what these leave of the position's increments.
+///    Neighbouring increments that cancel out are noise of the reported velocity, not motion.
+///  - without: from second differences of the position over 0.3 s and 1 s, whose variances mix both
+///    diffusions differently:
+///    Dp (t2 + r^2 t1) + Dv (t2^3 + r^2 t1^3) / 3 + (1 + (1 + r)^2 + r^2) sigma^2 with r = t2 / t1,
+///    fitted by least squares.
+/// Single outliers (a bounce off a wall) are clipped or left out, so that they do not raise the diffusion.
 class DiffusionEstimator {
  public:
   explicit DiffusionEstimator(const DiffusionParameters& parameters = {});
@@ -50,7 +49,7 @@ class DiffusionEstimator {
   void update(double time, const Eigen::Vector2d& position, double position_sigma,
               const Eigen::Vector2d& velocity);
   void update(double time, const Eigen::Vector2d& position, double position_sigma);
-  /// The motion before now has ended (a bounce): differences across it mean nothing.
+  /// Starts a new motion (after a bounce): no differences are taken across it.
   void restart();
 
   [[nodiscard]] double velocity_diffusion() const { return velocity_diffusion_; }  ///< [(m/s)^2/s]
@@ -82,15 +81,15 @@ class DiffusionEstimator {
   double velocity_noise_ = 0.0;
 
   // Weighted sums; weights in seconds of data.
-  double increment_time_ = 0.0;  // [s] seen so far, never forgotten
+  double increment_time_ = 0.0;  // [s] observed so far, never forgotten
   double increment_weight_ = 0.0;
   double velocity_square_ = 0.0;  // of |dv|^2 / (2 dt)
   double velocity_lagged_ = 0.0;  // of dv . dv_before / (2 dt)
   double position_weight_ = 0.0;
   double position_square_ = 0.0;
-  Eigen::Vector2d velocity_step_ = Eigen::Vector2d::Zero();  // [m/s] the increment before
+  Eigen::Vector2d velocity_step_ = Eigen::Vector2d::Zero();  // [m/s] the previous increment
   bool has_velocity_step_ = false;
-  bool velocity_outlier_ = false;  // the sample before was one
+  bool velocity_outlier_ = false;  // the previous sample was one
   bool position_outlier_ = false;
   double mean_interval_ = 0.0;  // [s]
   Eigen::Matrix2d normal_ =

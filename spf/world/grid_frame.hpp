@@ -7,7 +7,7 @@
 
 namespace spf {
 
-/// Axis-aligned grid; node (i, j) stands at origin + resolution * (i, j).
+/// Axis-aligned grid; node (i, j) lies at origin + resolution * (i, j).
 struct GridFrame {
   Eigen::Vector2d origin_world = Eigen::Vector2d::Zero();  ///< [m] position of node (0, 0)
   double resolution = 0.1;                                 ///< [m]

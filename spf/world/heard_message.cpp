@@ -8,8 +8,8 @@
 namespace spf {
 namespace {
 
-/// Whether position, velocity and acceleration stay believable all along a piece: bounds in which no part of
-/// the sums takes away from another.
+/// Whether position, velocity and acceleration stay believable all along a piece, by bounds in which no terms
+/// cancel.
 bool usable(const QuinticPiece& piece) {
   if (!believable(piece.duration) || !(piece.duration > 0.0) || !believable(piece.coefficients)) return false;
   double position = 0.0, velocity = 0.0, acceleration = 0.0;
@@ -29,7 +29,7 @@ bool usable(const HeadingProfile& heading) {
          believable(heading.turn_duration());
 }
 
-/// From its start to its end, at any time that anybody may ask for.
+/// From its start to its end, at any time that may be queried.
 bool usable(const Trajectory& trajectory) {
   if (!std::isfinite(trajectory.start_time()) || !usable(trajectory.heading())) return false;
   for (int k = 0; k < trajectory.piece_count(); ++k) {

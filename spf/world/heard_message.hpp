@@ -1,4 +1,4 @@
-// A peer's message on its way to those who hear it.
+// A peer's broadcast as its receivers share it.
 #pragma once
 
 #include "spf/math/shared.hpp"
@@ -6,18 +6,19 @@
 
 namespace spf {
 
-/// Its trajectory is checked once and stands in memory once, however many hear it. Copying shares.
+/// The trajectory is checked once and held in memory once, whatever the number of receivers. Copying shares.
 class HeardMessage {
  public:
-  HeardMessage(const TrajectoryMessage& message);  // NOLINT(google-explicit-constructor): it is that message
+  HeardMessage(
+      const TrajectoryMessage& message);  // NOLINT(google-explicit-constructor): used like the message
 
   [[nodiscard]] const TrajectoryMessage* operator->() const { return &*message_; }
   operator const TrajectoryMessage&() const {  // NOLINT(google-explicit-constructor): as above
     return message_;
   }
   [[nodiscard]] Shared<Trajectory> trajectory() const { return {message_, message_->trajectory}; }
-  /// Whether there is a trajectory on which, from its start to its end, position, velocity, acceleration and
-  /// heading can be reckoned with.
+  /// Whether there is a trajectory on which position, velocity, acceleration and heading are believable
+  /// (spf/math/believable.hpp) from start to end.
   [[nodiscard]] bool usable() const { return usable_; }
 
  private:

@@ -19,14 +19,14 @@ struct PoseMeasurement {
 
 /// One moving obstacle as reported by a detector or an outside tracker.
 struct Detection {
-  int id = 0;                                                ///< stable identity given by the detector
+  int id = 0;                                                ///< stable identity assigned by the detector
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
-  std::optional<Eigen::Vector2d> velocity_world;             ///< [m/s] when the detector knows it
+  std::optional<Eigen::Vector2d> velocity_world;             ///< [m/s] when the detector reports it
   double radius = 0.3;                                       ///< [m]
   double position_sigma = 0.0;                               ///< [m] standard deviation per axis, 0 = exact
 };
 
-/// Largest number of beams of one sweep: more than any scanner has.
+/// Largest accepted number of beams of one sweep: more than any scanner has.
 inline constexpr std::size_t kMostBeams = 100'000;
 
 /// One sweep of a planar range sensor at the robot's centre. Beam i points at angle_min + i * angle_increment

@@ -8,9 +8,9 @@
 namespace spf {
 namespace {
 
-constexpr double kDriftLimit = 3.0;       // [1] sigmas; a larger cusum means a new motion (a bounce)
+constexpr double kInnovationGate = 3.0;   // [1] sigmas; a larger cusum means a new motion (a bounce)
 constexpr double kCusumForgetting = 0.7;  // [1] from one innovation to the next: a cusum shows within three
-constexpr double kOneEvent = 2.0;         // [s] changes closer than this are no single event
+constexpr double kOneEvent = 2.0;         // [s] changes closer together than this are no single event
 
 bool well_formed(const Detection& detection) {
   const bool numbers = believable(detection.position_world) && believable(detection.radius) &&
@@ -74,10 +74,10 @@ void ObstacleTracker::update(const Observation& observation) {
 }
 
 void ObstacleTracker::enter(const Detection& detection, double time) {
-  const auto place = std::lower_bound(tracks_.begin(), tracks_.end(), detection.id,
+  const auto found = std::lower_bound(tracks_.begin(), tracks_.end(), detection.id,
                                       [](const ObstacleTrack& track, int id) { return track.id < id; });
-  const auto slot = static_cast<std::size_t>(place - tracks_.begin());
-  if (place == tracks_.end() || place->id != detection.id) {
+  const auto slot = static_cast<std::size_t>(found - tracks_.begin());
+  if (found == tracks_.end() || found->id != detection.id) {
     if (tracks_.size() >= kMostTracks) {
       ++stats_.crowded;
       return;
@@ -87,8 +87,8 @@ void ObstacleTracker::enter(const Detection& detection, double time) {
     ++stats_.stale;
     return;
   } else if (time - memories_[slot].last_seen > parameters_.timeout) {
-    ++stats_.dropped;  // too old to go on from: the same id, a new track
-    tracks_.erase(place);
+    ++stats_.dropped;  // too old to continue: the same id, a new track
+    tracks_.erase(found);
     memories_.erase(memories_.begin() + static_cast<std::ptrdiff_t>(slot));
     begin_track(slot, detection, time);
   } else {
@@ -133,7 +133,7 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   const double least = parameters_.least_sigma * parameters_.least_sigma;
   const double position_noise = std::max(detection.position_sigma * detection.position_sigma, least);
   const double velocity_noise = std::max(memory.diffusion.velocity_noise(), least);
-  const double limit = 2.0 * kDriftLimit * kDriftLimit;  // two axes
+  const double limit = 2.0 * kInnovationGate * kInnovationGate;  // two axes
   Eigen::Vector2d innovation = detection.position_world - track.state.position_world;
   memory.cusum =
       kCusumForgetting * memory.cusum + innovation / std::sqrt(track.position_variance + position_noise);
@@ -144,11 +144,11 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   }
   if (changed) {
     ++stats_.changes;
-    // Once is a bounce; again and again is restlessness, which is to be learnt.
+    // A single change is a bounce; repeated ones are process noise, which is to be learnt.
     if (time - memory.last_change > kOneEvent) memory.diffusion.restart();
     memory.last_change = time;
     memory.cusum.setZero();
-    // What turned round has changed its velocity by up to twice its speed.
+    // An obstacle that turned round has changed its velocity by up to twice its speed.
     const double speed = std::max(parameters_.initial_speed, 2.0 * track.state.velocity_world.norm());
     track.velocity_variance += speed * speed;
     track.cross_covariance += speed * speed * dt;

@@ -16,7 +16,7 @@ namespace spf {
 
 struct ObstacleTrackerParameters {
   double timeout = 2.0;        ///< [s] a track unseen for longer is dropped
-  double initial_speed = 1.0;  ///< [m/s] standard deviation per axis of the velocity of what was seen once
+  double initial_speed = 1.0;  ///< [m/s] standard deviation per axis of the velocity after a single detection
   double least_sigma = 1e-4;   ///< [m] positions are never taken as more exact
   DiffusionParameters diffusion;
 
@@ -34,7 +34,7 @@ struct ObstacleTrackerParameters {
   }
 };
 
-/// How many obstacles a robot keeps in mind.
+/// Largest number of obstacles that a robot tracks.
 inline constexpr std::size_t kMostTracks = 2000;
 
 struct ObstacleTrackerStats {
@@ -43,7 +43,7 @@ struct ObstacleTrackerStats {
   std::uint64_t stale = 0;      ///< not newer than the track
   std::uint64_t changes = 0;    ///< sudden changes of motion
   std::uint64_t dropped = 0;    ///< tracks that timed out
-  std::uint64_t crowded = 0;    ///< detections of one more obstacle than kMostTracks
+  std::uint64_t crowded = 0;    ///< detections of new obstacles beyond kMostTracks
 };
 
 class ObstacleTracker {
@@ -51,8 +51,8 @@ class ObstacleTracker {
   /// Throws std::invalid_argument on parameters out of range.
   explicit ObstacleTracker(const ObstacleTrackerParameters& parameters = {});
 
-  /// Enters the detections of one observation; other tracks are predicted to its time, their uncertainty
-  /// grown.
+  /// Takes in the detections of one observation; the other tracks are predicted to its time, with growing
+  /// uncertainty.
   void update(const Observation& observation);
 
   /// Sorted by id, all at the time of the newest observation.
@@ -60,12 +60,12 @@ class ObstacleTracker {
   [[nodiscard]] const ObstacleTrackerStats& stats() const { return stats_; }
 
  private:
-  /// What a track needs beside what others see of it; memories_[k] belongs to tracks_[k].
+  /// The private part of a track; memories_[k] belongs to tracks_[k].
   struct Memory {
     double last_seen = 0.0;     // [s]
     double last_change = -1e9;  // [s]
     Eigen::Vector2d cusum =
-        Eigen::Vector2d::Zero();  // fading sum of innovations, each in its standard deviation
+        Eigen::Vector2d::Zero();  // cusum: discounted sum of innovations, each over its standard deviation
     DiffusionEstimator diffusion;
   };
 

@@ -263,7 +263,7 @@ TEST(ObstacleTracker, HoldsABoundedNumberOfTracks) {
   tracker.update(observation);
   EXPECT_EQ(tracker.tracks().size(), kMostTracks);
   EXPECT_EQ(tracker.stats().crowded, 2 * kMostTracks);
-  // Who is known is followed, and a place is free again when a track has timed out.
+  // Known obstacles are still tracked, and there is room again when a track has timed out.
   observation.time = 0.1;
   observation.detections = {{3 * most, {1.1, 1.0}, {}, 0.3, 0.0}};
   tracker.update(observation);

@@ -21,7 +21,7 @@ void check_rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high, co
   throw std::invalid_argument(std::string{what} + ": needs finite corners with low < high");
 }
 
-/// Every beam's direction too: angles may grow beyond all numbers.
+/// Checks every beam's direction too: the sum of angles may overflow.
 bool finite(const RangeScan& scan, const Pose2& pose_world) {
   const double last = scan.angle_min + static_cast<double>(scan.ranges.size()) * scan.angle_increment;
   return pose_world.position_world.allFinite() && std::isfinite(pose_world.heading) &&
@@ -31,11 +31,11 @@ bool finite(const RangeScan& scan, const Pose2& pose_world) {
 
 }  // namespace
 
-/// The four nodes around a place, and where it stands between them.
+/// The four nodes around a position, and where it lies between them.
 struct OccupancyMap::Patch {
   double value[2][2];       // [along x][along y]
-  double x, y;              // place between the nodes, in [0, 1]
-  bool inside_x, inside_y;  // false: the place is held at the grid's edge
+  double x, y;              // position between the nodes, in [0, 1]
+  bool inside_x, inside_y;  // false: clamped to the grid's edge
 
   [[nodiscard]] double interpolated() const {
     const double low_y = value[0][0] + x * (value[1][0] - value[0][0]);
@@ -63,7 +63,7 @@ OccupancyMap::OccupancyMap(const GridFrame& frame, double max_distance, const Oc
 template <class SignedDistance>
 void OccupancyMap::add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,
                              const SignedDistance& signed_distance) {
-  // Copy on write: nobody else sees the layer while only this map holds it.
+  // Copy on write: the layer may be changed while only this map holds it.
   std::shared_ptr<std::vector<float>> layer;
   if (!known_) {
     const std::size_t nodes =
@@ -173,7 +173,7 @@ void OccupancyMap::integrate(const RangeScan& scan, const Pose2& sensor_pose_wor
   if (sensed_->integrate(sensor, beams_)) ++revision_;
 }
 
-/// How far beams are followed: a sensor may report any large number as its range.
+/// How far beams are followed [m]: a sensor may report any large number as its range.
 double OccupancyMap::reach_of(const RangeScan& scan) const {
   constexpr double kMostCrossings = 2e7;  // cells; no real sweep on a grid of real size comes near
   const double diagonal = std::hypot(frame_.width, frame_.height);

@@ -1,6 +1,6 @@
 // Static surroundings: a grid of occupied cells with a truncated distance field over it. Known shapes enter
 // with their exact distance, sensed cells with their hit point. One clearance model for search, optimiser and
-// checker: everybody asks distance(). Frame: world.
+// checker: all of them use distance(). Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,15 +19,15 @@
 
 namespace spf {
 
-/// A disc whose scan returns are explained by something else (a tracked obstacle, a peer) and are not static.
+/// A disc whose scan returns are not entered as static, since a tracked obstacle or a peer causes them.
 struct MaskedDisc {
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();
   double radius = 0.0;
 };
 
 /// A value. Copies share the layer of known shapes until one of them adds a shape (hence the shared_ptr to
-/// const: a fleet of 1000 robots on a map of 10 MB would otherwise hold 10 GB of the same numbers); what a
-/// robot has sensed is its own. Make one map with the known shapes and copy it to every robot.
+/// const: a fleet of 1000 robots on a map of 10 MB would otherwise hold 10 GB of the same numbers); the
+/// sensed layer is every copy's own. Make one map with the known shapes and copy it to every robot.
 class OccupancyMap {
  public:
   /// Distances are exact up to max_distance [m] and read max_distance beyond. Throws std::invalid_argument on
@@ -44,21 +44,21 @@ class OccupancyMap {
   void add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
   /// Enters one sweep of the range sensor taken at `sensor_pose_world`: cells crossed by beams become free,
-  /// cells with returns occupied (log odds), unless the return lies in an masked disc or within half a cell
-  /// of a known shape. Ranges that are NaN, -infinity or not positive are skipped; +infinity, or beyond
-  /// max_range, is "nothing there". Time is bounded whatever the sweep holds: beams are followed across the
-  /// grid at most, and less far where all of them together would cross more than 2 * 10^7 cells. A sweep of
-  /// more than kMostBeams, from a place farther from the grid than the grid is long, or with numbers that are
-  /// not finite, enters nothing.
+  /// cells with returns occupied (log odds), unless the return lies in a masked disc or within half a cell of
+  /// a known shape. Ranges that are NaN, -infinity or not positive are skipped; +infinity, or beyond
+  /// max_range, is "no return". Time is bounded for any sweep: beams are followed across the grid at most,
+  /// and less far where all of them together would cross more than 2 * 10^7 cells. A sweep of more than
+  /// kMostBeams, from a position farther from the grid than the grid is long, or with numbers that are not
+  /// finite, is ignored.
   void integrate(const RangeScan& scan, const Pose2& sensor_pose_world,
                  const std::vector<MaskedDisc>& masked);
 
   /// Distance from a point to the nearest static surface [m], bilinear between nodes, negative inside known
-  /// shapes, at most max_distance(). Outside the grid: the value at the nearest place of the grid. Beside a
+  /// shapes, at most max_distance(). Outside the grid: the value at the nearest point of the grid. Beside a
   /// corner or a hit point at distance d the interpolation reads up to resolution^2 / (4 d) too much. NaN
   /// reads as the origin.
   [[nodiscard]] double distance(const Eigen::Vector2d& position_world) const;
-  /// Gradient of that interpolation: points away from the surface; zero where truncated.
+  /// Gradient of that interpolation [1]: points away from the surface; zero where truncated.
   [[nodiscard]] Eigen::Vector2d distance_gradient(const Eigen::Vector2d& position_world) const;
   /// Distance at a node without interpolation; (i, j) inside the frame.
   [[nodiscard]] double node_distance(int i, int j) const {
@@ -82,17 +82,17 @@ class OccupancyMap {
 
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
   [[nodiscard]] double max_distance() const { return max_distance_; }
-  /// How much nearer than distance() a surface may be [m]: half a cell once anything was sensed, since a cell
+  /// How much nearer than distance() a surface may be [m]: half a cell once a sweep was entered, since a cell
   /// keeps one hit point of a surface that runs through all of it; 0 where all shapes are known.
   [[nodiscard]] double surface_error() const { return sensed_ ? 0.5 * frame_.resolution : 0.0; }
-  /// Whether sweeps have been entered: more of them may change it at any time.
+  /// Whether sweeps have been entered: the map may then change at any time.
   [[nodiscard]] bool sensed() const { return sensed_.has_value(); }
-  /// The margin to keep by distance() so that a wanted one [m] is kept from the surfaces themselves, where
-  /// the wanted one does not hold the error already.
+  /// The margin to keep by distance() so that the `wanted` one [m] is kept: `wanted`, but at least
+  /// surface_error().
   [[nodiscard]] double margin(double wanted) const { return std::max(wanted, surface_error()); }
   /// Grows whenever any distance changes: cached paths compare it.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
-  /// Hit points of the sensed occupied cells: for display.
+  /// Hit points of the sensed occupied cells: for display [m].
   [[nodiscard]] std::vector<Eigen::Vector2d> occupied_points() const;
 
  private:
@@ -113,7 +113,7 @@ class OccupancyMap {
   std::uint64_t revision_ = 0;
   std::shared_ptr<const std::vector<float>> known_;  // [m] of known shapes per node, null = none; see above
   std::optional<SensedLayer> sensed_;                // since the first sweep
-  std::vector<SensedBeam> beams_;                    // of the sweep under way, kept for its memory
+  std::vector<SensedBeam> beams_;                    // of the current sweep, kept for its capacity
 };
 
 }  // namespace spf

@@ -20,7 +20,7 @@ OccupancyMap map_of(double half, double resolution = 0.1, double max_distance = 
   return {GridFrame::covering({-half, -half}, {half, half}, resolution), max_distance};
 }
 
-Eigen::Vector2d draw_place(RandomStream& random, double half) {
+Eigen::Vector2d draw_position(RandomStream& random, double half) {
   const double x = random.uniform(-half, half);
   return {x, random.uniform(-half, half)};
 }
@@ -112,18 +112,18 @@ TEST(OccupancyMap, GradientMatchesCentralDifferences) {
   RandomStream random{11};
   const double step = 1e-6;
   for (int k = 0; k < 2000; ++k) {
-    const Eigen::Vector2d place = draw_place(random, 3.5);  // some outside the grid
-    // The interpolation is smooth within a cell; skip the few places whose difference would straddle two
+    const Eigen::Vector2d position = draw_position(random, 3.5);  // some outside the grid
+    // The interpolation is smooth within a cell; skip the few positions whose difference would straddle two
     // cells.
-    const Eigen::Array2d cell = ((place - map.frame().origin_world) / map.frame().resolution).array();
+    const Eigen::Array2d cell = ((position - map.frame().origin_world) / map.frame().resolution).array();
     if (((cell - cell.round()).abs() < 1e-3).any()) continue;
     Eigen::Vector2d expected;
     for (int axis = 0; axis < 2; ++axis) {
       const Eigen::Vector2d shift = step * Eigen::Vector2d::Unit(axis);
-      expected[axis] = (map.distance(place + shift) - map.distance(place - shift)) / (2.0 * step);
+      expected[axis] = (map.distance(position + shift) - map.distance(position - shift)) / (2.0 * step);
     }
     // Bilinear: no truncation error; rounding 1e-16 * some metres / 2e-6.
-    EXPECT_LT((map.distance_gradient(place) - expected).norm(), 1e-8) << place.transpose();
+    EXPECT_LT((map.distance_gradient(position) - expected).norm(), 1e-8) << position.transpose();
   }
 }
 
@@ -169,10 +169,10 @@ TEST(OccupancyMap, BelievesAfterThreeReturnsNotTwo) {
 TEST(OccupancyMap, ForgetsVanishedSurfacesExactly) {
   OccupancyMap map = map_of(6.0);
   RandomStream random{5};
-  // Rooms of changing size seen from changing places: cells appear and vanish in all orders.
+  // Rooms of changing size seen from changing positions: cells appear and vanish in all orders.
   for (int k = 0; k < 60; ++k) {
     Pose2 pose;
-    pose.position_world = draw_place(random, 0.5);
+    pose.position_world = draw_position(random, 0.5);
     pose.heading = random.uniform(-kPi, kPi);
     map.integrate(sweep_in_circle(pose, 1.5 + 0.5 * ((k / 6) % 4), 90), pose, {});
     if (k % 10 == 9) expect_distances_of_points(map);
@@ -180,7 +180,7 @@ TEST(OccupancyMap, ForgetsVanishedSurfacesExactly) {
   ASSERT_FALSE(map.occupied_points().empty());
   for (int k = 0; k < 400; ++k) {
     Pose2 pose;
-    pose.position_world = draw_place(random, 0.5);
+    pose.position_world = draw_position(random, 0.5);
     pose.heading = random.uniform(-kPi, kPi);
     map.integrate(sweep_of(std::vector<double>(180, kInfinity)), pose, {});
   }
@@ -207,7 +207,7 @@ TEST(OccupancyMap, GrazingBeamsDoNotWearAwayAWall) {
   const std::vector<Eigen::Vector2d> points = map.occupied_points();
   for (int i = -25; i <= 25; ++i) {
     const bool there = std::any_of(points.begin(), points.end(), [i](const Eigen::Vector2d& point) {
-      return std::fabs(point.x() - 0.1 * i) < 0.0501;  // half a cell, and the rounding of the hit's place
+      return std::fabs(point.x() - 0.1 * i) < 0.0501;  // half a cell, and the rounding of the hit point
     });
     EXPECT_TRUE(there) << "cell at x = " << 0.1 * i;
   }
@@ -254,7 +254,7 @@ TEST(OccupancyMap, BadRangesAndPosesAreSkipped) {
   EXPECT_TRUE(map.occupied_points().empty());
 }
 
-/// Occupied places and every distance.
+/// Occupied points and every distance.
 void expect_equal(const OccupancyMap& a, const OccupancyMap& b) {
   const std::vector<Eigen::Vector2d> points = a.occupied_points(), others = b.occupied_points();
   ASSERT_EQ(points.size(), others.size());
@@ -315,11 +315,11 @@ TEST(OccupancyMap, LooksAtABoundedNumberOfCells) {
 TEST(OccupancyMap, SegmentsKnowWhetherTheyAreClear) {
   OccupancyMap map = map_of(6.0);
   RandomStream random{21};
-  for (int k = 0; k < 6; ++k) map.add_disc(draw_place(random, 5.0), random.uniform(0.2, 0.8));
+  for (int k = 0; k < 6; ++k) map.add_disc(draw_position(random, 5.0), random.uniform(0.2, 0.8));
   map.add_box({-1.0, -2.0}, {0.5, -1.2});
   for (int k = 0; k < 500; ++k) {
-    const Eigen::Vector2d a = draw_place(random, 6.0);
-    const Eigen::Vector2d b = draw_place(random, 6.0);
+    const Eigen::Vector2d a = draw_position(random, 6.0);
+    const Eigen::Vector2d b = draw_position(random, 6.0);
     double lowest = kInfinity;
     for (int s = 0; s <= 4000; ++s) lowest = std::min(lowest, map.distance(a + s / 4000.0 * (b - a)));
     // Looks every 2.5 cm at least; between two looks the distance dips by at most half of that at slope 1.

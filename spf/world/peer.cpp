@@ -2,7 +2,7 @@
 
 namespace spf {
 
-// An expired peer's trajectory has been replaced by one that stands (PeerTable), so both cases read the same.
+// An expired peer's trajectory has been replaced by one at rest (PeerTable), so both cases read the same.
 Eigen::Vector2d Peer::position(double time) const {
   return trajectory->position(time);
 }

@@ -14,12 +14,12 @@ struct Peer {
   double radius = 0.3;          ///< [m]
   double position_sigma = 0.0;  ///< [m]
   double received_time = 0.0;   ///< [s]
-  bool expired = false;  ///< the message is too old: the peer is a disc at its last known place, growing
+  bool expired = false;  ///< the message is too old: the peer is a growing disc at its last known position
   double growth = 0.0;   ///< [m] added to the radius of an expired peer
   Shared<Trajectory> trajectory{Trajectory{}};
 
   [[nodiscard]] Rank rank() const { return {priority, robot_id}; }
-  /// Position at an absolute time [m]; for an expired peer the last known place.
+  /// Position at an absolute time [m]; for an expired peer the last known position.
   [[nodiscard]] Eigen::Vector2d position(double time) const;
   /// Velocity at an absolute time [m/s].
   [[nodiscard]] Eigen::Vector2d velocity(double time) const;

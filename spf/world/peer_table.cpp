@@ -44,11 +44,11 @@ MessageVerdict PeerTable::judge(const HeardMessage& heard, double now) const {
   const TrajectoryMessage& message = heard;
   if (message.robot_id == own_id_) return MessageVerdict::own;
   if (!heard.usable() || !well_formed(message, now)) return MessageVerdict::malformed;
-  const auto place = entries_.find(message.robot_id);
-  if (place == entries_.end() || now > place->second.expiry_time) return MessageVerdict::accepted;
-  const Entry& known = place->second;
+  const auto entry = entries_.find(message.robot_id);
+  if (entry == entries_.end() || now > entry->second.expiry_time) return MessageVerdict::accepted;
+  const Entry& known = entry->second;
   if (message.sequence == known.sequence) return MessageVerdict::duplicate;
-  // Counted on a circle, so that a sequence may run over its end.
+  // Modulo 2^32, so that a sequence may wrap around.
   const bool newer = static_cast<std::int32_t>(message.sequence - known.sequence) > 0;
   return newer ? MessageVerdict::accepted : MessageVerdict::old;
 }
@@ -64,7 +64,7 @@ bool PeerTable::well_formed(const TrajectoryMessage& message, double now) const 
          message.sent_time >= now - kOldestMessage && message.expiry_time >= message.sent_time;
 }
 
-/// Whether one more sender fits, if need be for the one that expired first.
+/// Whether one more sender fits, if need be by dropping the one that expired first.
 bool PeerTable::make_room(double now) {
   if (entries_.size() < kMostPeers) return true;
   const auto first = std::min_element(entries_.begin(), entries_.end(), [](const auto& a, const auto& b) {
@@ -77,18 +77,18 @@ bool PeerTable::make_room(double now) {
 
 const std::vector<Peer>& PeerTable::peers(double now) {
   peers_.clear();
-  for (auto place = entries_.begin(); place != entries_.end();) {
-    Entry& entry = place->second;
+  for (auto slot = entries_.begin(); slot != entries_.end();) {
+    Entry& entry = slot->second;
     if (now > entry.expiry_time + parameters_.forget_time) {
-      place = entries_.erase(place);
+      slot = entries_.erase(slot);
       continue;
     }
-    ++place;
+    ++slot;
     Peer& peer = entry.peer;
     if (!peer.expired && now > entry.expiry_time) {
-      // The last known place is where the peer said it would be when its word ran out.
+      // The last known position is where the peer's plan puts it at the expiry time.
       peer.expired = true;
-      constexpr double kLong = 1.0;  // [s] any duration will do: a trajectory stands at its ends
+      constexpr double kLong = 1.0;  // [s] any duration will do: a trajectory rests at its ends
       peer.trajectory =
           Trajectory::standing(peer.trajectory->position(entry.expiry_time), entry.expiry_time, kLong);
     }

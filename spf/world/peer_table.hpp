@@ -1,7 +1,7 @@
-// Teammates as known from their broadcasts: which messages are believed, and what becomes of a peer that
+// Teammates as known from their broadcasts: which messages are accepted, and what becomes of a peer that
 // falls silent. Frame: world. Time is the receiver's; clocks agree within `clock_tolerance`. Whatever is
-// sent, the table holds at most kMostPeers, a message costs at most one look at each of them, and no number
-// in it leaves what can be reckoned with.
+// sent, the table holds at most kMostPeers, a message costs time linear in their number at most, and all
+// numbers stay believable (spf/math/believable.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +19,11 @@
 namespace spf {
 
 struct PeerTableParameters {
-  double silence = 1.0;         ///< [s] without a message a peer expires, whatever the message promised
-  double growth_rate = 0.3;     ///< [m/s] growth of an expired peer's disc: where it may have gone
-  double largest_growth = 1.0;  ///< [m] the disc grows up to here
-  double forget_time = 10.0;    ///< [s] after expiry the peer is forgotten: from then on only sensing sees it
+  double silence =
+      1.0;  ///< [s] a peer expires this long after its last message, even if that promised longer
+  double growth_rate = 0.3;  ///< [m/s] growth of an expired peer's disc, which covers where it may have gone
+  double largest_growth = 1.0;   ///< [m] the disc grows up to here
+  double forget_time = 10.0;     ///< [s] after expiry the peer is forgotten and left to the sensors
   double clock_tolerance = 1.0;  ///< [s] messages from farther in the future are malformed
 
   template <class Self, class Visitor>
@@ -43,16 +44,17 @@ struct PeerTableParameters {
   }
 };
 
-/// How many peers a robot keeps in mind: about twice the largest fleet whose robots all hear each other.
+/// Largest number of peers that a robot remembers: about twice the largest fleet whose robots all hear each
+/// other.
 inline constexpr std::size_t kMostPeers = 2000;
 
 enum class MessageVerdict {
   accepted,
   own,        ///< the robot's own message came back
-  duplicate,  ///< the sequence number that is known already
-  old,        ///< an older one: overtaken on the way
-  malformed,  ///< not finite, leading beyond all places or speeds, without a trajectory, out of range
-  crowded,    ///< good, but of one more sender than kMostPeers, none of which has expired
+  duplicate,  ///< the sequence number is known already
+  old,        ///< an older one, overtaken in transit
+  malformed,  ///< without a usable trajectory (HeardMessage::usable), not finite, or out of range
+  crowded,    ///< valid, but from a new sender while kMostPeers are known, none of them expired
 };
 inline constexpr std::size_t kMessageVerdicts = static_cast<std::size_t>(MessageVerdict::crowded) + 1;
 
@@ -61,18 +63,18 @@ class PeerTable {
   /// Throws std::invalid_argument on parameters out of range.
   explicit PeerTable(int own_id, const PeerTableParameters& parameters = {});
 
-  /// Checks a message and, when good, makes it what is known of its sender. `now` [s] is the time of arrival.
-  /// A sender that has been silent long enough to expire may start its sequence afresh (it was restarted). In
-  /// a full table a new sender takes the place of the one that expired first.
+  /// Checks a message and, when valid, stores it as its sender's latest. `now` [s] is the time of arrival. A
+  /// sender that has been silent long enough to expire may restart its sequence (the robot was restarted). In
+  /// a full table a new sender replaces the one that expired first.
   MessageVerdict receive(const HeardMessage& heard, double now);
 
-  /// Everybody known at this time, sorted by robot_id; drops who is forgotten. The reference holds until the
-  /// next call.
+  /// All peers known at time `now` [s], sorted by robot_id; those due to be forgotten are dropped. The
+  /// reference is valid until the next call.
   const std::vector<Peer>& peers(double now);
-  /// What that returned last.
+  /// The result of the last call of peers().
   [[nodiscard]] const std::vector<Peer>& last_peers() const { return peers_; }
 
-  /// How many messages got this verdict.
+  /// Number of messages with this verdict.
   [[nodiscard]] std::uint64_t count(MessageVerdict verdict) const {
     return counts_[static_cast<std::size_t>(verdict)];
   }

@@ -142,7 +142,7 @@ TEST(PeerTable, HoldsABoundedNumberOfPeers) {
   EXPECT_EQ(table.peers(0.0).size(), kMostPeers);
   EXPECT_EQ(table.count(MessageVerdict::accepted), kMostPeers);
   EXPECT_EQ(table.count(MessageVerdict::crowded), 9 * kMostPeers);
-  // Who is known is heard; newcomers wait until somebody has fallen silent.
+  // Known peers are heard; new ones wait until a known one has fallen silent.
   const int silent = 10 * most;
   for (int id = silent - 1; id > 9 * most; --id)
     ASSERT_EQ(table.receive(message_of(id, 2, 0.5), 0.5), MessageVerdict::accepted);
@@ -169,14 +169,15 @@ TrajectoryMessage message_with(int row, double coefficient, double duration) {
 TEST(PeerTable, BelievesNothingThatLeavesTheFinite) {
   const auto verdict = [](const TrajectoryMessage& message) { return PeerTable{1}.receive(message, 0.0); };
   for (const double sign : {-1.0, 1.0}) {
-    EXPECT_EQ(verdict(message_with(0, sign * 1e6, 10.0)), MessageVerdict::accepted) << "far, but a place";
+    EXPECT_EQ(verdict(message_with(0, sign * 1e6, 10.0)), MessageVerdict::accepted)
+        << "far, but a valid position";
     EXPECT_EQ(verdict(message_with(0, sign * 1e300, 1.0)), MessageVerdict::malformed) << "position";
     EXPECT_EQ(verdict(message_with(1, sign * 1e300, 1e-300)), MessageVerdict::malformed) << "speed alone";
     EXPECT_EQ(verdict(message_with(2, sign * 1e300, 1e-300)), MessageVerdict::malformed) << "acceleration";
     EXPECT_EQ(verdict(message_with(5, sign * 1e6, 1e60)), MessageVerdict::malformed)
         << "grows past the finite";
     EXPECT_EQ(verdict(message_with(5, sign * 1.0, 1e8)), MessageVerdict::malformed)
-        << "grows past all places";
+        << "grows beyond all bounds";
     EXPECT_EQ(verdict(message_with(3, sign * 1e-3, 1e8)), MessageVerdict::malformed) << "likewise";
   }
   EXPECT_EQ(verdict(message_with(0, 1.0, 1e300)), MessageVerdict::malformed) << "duration";

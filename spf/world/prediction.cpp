@@ -18,7 +18,7 @@ void reflect(Motion& motion, double clearance, const OccupancyMap& map) {
   if (depth <= 0.0) return;
   const Eigen::Vector2d slope = map.distance_gradient(motion.position);
   const double steepness = slope.norm();
-  if (steepness < 1e-6) return;  // the middle of a shape, or truncated: no way out is known
+  if (steepness < 1e-6) return;  // the middle of a shape, or truncated: the direction outwards is not known
   const Eigen::Vector2d outward = slope / steepness;
   motion.position += depth / std::max(steepness, 0.5) * outward;
   const double inward_speed = -motion.velocity.dot(outward);
@@ -32,10 +32,11 @@ ObstaclePrediction::ObstaclePrediction(const ObstacleTrack& track, double horizo
     : track_{track} {
   assert(step > 0.0 && horizon >= 0.0);
   step_ = std::max(step, horizon / (kCapacity - 1));
-  // The small number keeps a whole number of steps whole.
+  // The small number keeps rounding from adding a step.
   count_ = std::clamp(static_cast<int>(std::ceil(horizon / step_ - 1e-9)) + 1, 1, kCapacity);
 
-  // What already touches a surface must not be thrown off it at once (people lean on walls; maps have noise).
+  // An obstacle that touches a surface already must not bounce off it at once (people lean on walls; maps
+  // have noise).
   const double clearance =
       map ? std::min(track.state.radius, map->distance(track.state.position_world)) : track.state.radius;
   Motion motion{track.state.position_world, track.state.velocity_world};

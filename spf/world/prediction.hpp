@@ -1,5 +1,5 @@
-// Where a tracked obstacle will be: its mean motion, which knows that static surfaces turn it back, and how
-// uncertain that is. Frame: world. Times `ahead` are seconds after the track's own time.
+// Where a tracked obstacle will be: its mean motion, reflected by static surfaces, and how uncertain that is.
+// Frame: world. Times `ahead` are seconds after the track's own time.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace spf {
 
-/// Samples of the mean at equal steps; fixed capacity, so that building and asking never allocate.
+/// Samples of the mean at equal steps; fixed capacity, so that neither construction nor queries allocate.
 class ObstaclePrediction {
  public:
   static constexpr int kCapacity = 64;

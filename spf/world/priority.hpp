@@ -1,9 +1,9 @@
-// Who goes first when two robots are in each other's way: the one rule, for every method.
+// Which of two robots in conflict goes first: the one rule, for every method.
 #pragma once
 
 namespace spf {
 
-/// A robot's place in the order of a fleet.
+/// A robot's rank in the fleet.
 struct Rank {
   int priority = 0;  ///< the smaller goes first
   int robot_id = 0;  ///< likewise, among equal priorities (the paper's rule)

@@ -18,20 +18,20 @@ std::int16_t quantised_offset(double offset, double resolution) {
   return static_cast<std::int16_t>(std::lround(std::clamp(steps, -kOffsetUnit, kOffsetUnit)));
 }
 
-/// Whether the surface that beams `index` and `other` have met runs through a place: within `tolerance` of
-/// the line through both returns, and not farther along it than they are apart from each other, twice.
+/// Whether the surface that beams `index` and `other` have met runs through a point: within `tolerance` of
+/// the line through both returns, and along it not farther than twice their distance from each other.
 bool interpolated_by_pair(const Eigen::Vector2d& from_sensor, const std::vector<SensedBeam>& beams,
                           std::size_t index, std::size_t other, double tolerance) {
   if (other >= beams.size() || !beams[index].returned || !beams[other].returned) return false;
   const Eigen::Vector2d end = beams[index].length * beams[index].direction_world;
   const Eigen::Vector2d along = beams[other].length * beams[other].direction_world - end;
-  const Eigen::Vector2d to_place = from_sensor - end;
-  const double beside = to_place.x() * along.y() - to_place.y() * along.x();
-  return std::fabs(beside) < tolerance * along.norm() && to_place.norm() < 2.0 * along.norm();
+  const Eigen::Vector2d to_point = from_sensor - end;
+  const double beside = to_point.x() * along.y() - to_point.y() * along.x();
+  return std::fabs(beside) < tolerance * along.norm() && to_point.norm() < 2.0 * along.norm();
 }
 
-/// A beam argues against a hit point when it passes close by it and goes on beyond, and the surface that it
-/// meets then is another one: otherwise beams that graze a wall would wear away the cells in which it stands.
+/// A beam contradicts a hit point when it passes close by it and hits another surface farther on: otherwise
+/// beams that graze a wall would wear away its cells.
 bool contradicts(const Eigen::Vector2d& hit_from_sensor, const std::vector<SensedBeam>& beams,
                  std::size_t index, double resolution) {
   const SensedBeam& beam = beams[index];
@@ -199,7 +199,7 @@ void SensedLayer::stamp(const Hit& hit) {
 }
 
 // Only nodes whose nearest hit point has vanished need a new distance; first all of them are cleared, then
-// each looks at the hit points that are left.
+// each is compared with the remaining hit points.
 void SensedLayer::forget(const std::vector<Hit>& vanished) {
   if (vanished.empty()) return;
   const float resolution = static_cast<float>(frame_.resolution);

@@ -13,22 +13,22 @@
 
 namespace spf {
 
-/// One beam of a sweep: free up to its end, which is a surface or nothing.
+/// One beam of a sweep: free up to its end, where there is a surface or nothing.
 struct SensedBeam {
   Eigen::Vector2d direction_world = Eigen::Vector2d::UnitX();  ///< unit vector
   double length = 0.0;                                         ///< [m] free up to here
-  bool returned = false;  ///< something stands at the end: the cell of the end is not crossed
-  bool marks = false;     ///< and it is a static surface to be entered
+  bool returned = false;  ///< there is a surface at the end: the cell of the end is not crossed
+  bool marks = false;     ///< and it is a static one, to be entered
 };
 
-/// Memory grows with the area seen, in tiles of 32 x 32 nodes (12 KB each): a map of a square kilometre costs
-/// a robot only what lies along its way.
+/// Memory grows with the area seen, in tiles of 32 x 32 nodes (12 KB each): of a map of a square kilometre a
+/// robot stores only what lies along its route.
 class SensedLayer {
  public:
   SensedLayer(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters);
 
-  /// Enters a sweep; every cell is touched at most once, returns before crossings, so that a beam never
-  /// carves away what another beam of the same sweep has hit. True when any distance changed.
+  /// Enters a sweep; every cell is updated at most once, returns before crossings, so that a beam never
+  /// clears what another beam of the same sweep has hit. True when any distance changed.
   bool integrate(const Eigen::Vector2d& sensor_world, const std::vector<SensedBeam>& beams);
 
   /// Distance from node (i, j) to the nearest hit point of an occupied cell [m], at most max_distance.
@@ -51,7 +51,7 @@ class SensedLayer {
     std::array<std::int16_t, kTileCells> log_odds;  // in units of 1 / kLogOddsUnit
     std::array<std::int16_t, kTileCells> hit_x;     // offset from the node in units of half a cell / 32767;
     std::array<std::int16_t, kTileCells> hit_y;     // valid while log_odds > 0
-    std::array<std::uint16_t, kTileCells> sweep;    // last sweep that touched the cell
+    std::array<std::uint16_t, kTileCells> sweep;    // last sweep that updated the cell
   };
   struct Hit {
     int i;
@@ -90,7 +90,7 @@ class SensedLayer {
   std::vector<std::int32_t> tile_of_;  // index into tiles_, -1 = nothing seen there
   std::vector<Tile> tiles_;
   std::uint16_t sweep_ = 0;
-  std::vector<Hit> appeared_, vanished_, nearby_;  // of the sweep under way, kept for their memory
+  std::vector<Hit> appeared_, vanished_, nearby_;  // of the current sweep, kept for their capacity
   std::vector<Eigen::Vector2i> orphans_;           // nodes whose nearest hit has vanished
 };
 

@@ -9,7 +9,7 @@
 
 namespace spf {
 
-/// A view: the agent owns what it points to and keeps it unchanged while a plan is made.
+/// A view: the agent owns what it points to and keeps it unchanged during planning.
 struct WorldSnapshot {
   double time = 0.0;                  ///< [s]
   int robot_id = 0;                   ///< the robot whose belief this is

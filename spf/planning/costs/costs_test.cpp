@@ -22,7 +22,7 @@ CostWeights no_weights() {
   return weights;
 }
 
-/// A wriggling motion of a few metres in 2 to 8 pieces, with things in its way at all sides.
+/// A wriggling motion of a few metres in 2 to 8 pieces, with obstacles near it on all sides.
 struct CostScene {
   TrajectorySeed seed;
   TrajectoryProblem problem;

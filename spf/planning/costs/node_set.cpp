@@ -71,7 +71,7 @@ void NodeSet::sample(const Minco& minco, double start_time) {
 double NodeSet::fold(Minco::Coefficients& wrt_coefficients, Minco::Durations& wrt_durations) const {
   assert(wrt_coefficients.rows() == 6 * pieces_ && wrt_durations.size() == pieces_);
   double cost = 0.0;
-  // From the last node to the first: what depends on absolute time moves with every earlier piece.
+  // From the last node to the first: the time of a node depends on the durations of all earlier pieces.
   double later_wrt_time = 0.0;
   for (int i = pieces_ - 1; i >= 0; --i) {
     wrt_durations[i] += later_wrt_time;
@@ -88,7 +88,8 @@ double NodeSet::fold(Minco::Coefficients& wrt_coefficients, Minco::Durations& wr
 
       const double along = g_p.dot(node.velocity) + g_v.dot(node.acceleration) + g_a.dot(node.jerk) +
                            g_j.dot(node.snap) + node.weight * penalty.wrt_time;
-      // The node moves with its piece by its fraction; its time weight is a share of one or two durations.
+      // A node's local time is its fraction of the duration; its time weight is a share of one or two
+      // durations.
       const double share = (j == 0 || j == intervals_ ? 0.5 : 1.0) / intervals_ * penalty.integrand;
       wrt_durations[i] += node.fraction * along + share;
       if (j == intervals_ && i + 1 < pieces_) wrt_durations[i + 1] += share;

@@ -1,6 +1,6 @@
-// Nodes: the points of a trajectory at which costs are evaluated, and what every cost term says about them. A
-// term only knows nodes; this file alone knows how their gradients become gradients of coefficients and
-// durations (eq. 12-13 without the term's own factor). Frame: world.
+// Nodes: the points of a trajectory at which costs are evaluated, with the cost and gradient that the terms
+// add there. Terms see nodes only; NodeSet turns gradients at nodes into gradients with respect to
+// coefficients and durations (eq. 12-13 without the term's own factor). Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,15 +25,15 @@ struct NodeSample {
   int piece = 0;
 };
 
-/// What the terms say about one node. The integrand P counts with the node's time weight; the point part
-/// counts as it is (sums over points, such as eq. 10).
+/// Cost and gradient of all terms at one node, of two kinds: the integrand P [1/s] is multiplied by the
+/// node's time weight; the point part is added as it is (sums over points, such as eq. 10).
 struct NodePenalty {
   Eigen::Vector2d wrt_position = Eigen::Vector2d::Zero();        ///< dP/dposition
   Eigen::Vector2d wrt_velocity = Eigen::Vector2d::Zero();        ///< dP/dvelocity
   Eigen::Vector2d wrt_acceleration = Eigen::Vector2d::Zero();    ///< dP/dacceleration
   Eigen::Vector2d wrt_jerk = Eigen::Vector2d::Zero();            ///< dP/djerk
   Eigen::Vector2d point_wrt_position = Eigen::Vector2d::Zero();  ///< gradient of the point part
-  double wrt_time = 0.0;    ///< dP/dt at a fixed place: things that move with absolute time
+  double wrt_time = 0.0;    ///< dP/dt at a fixed position, from discs that move with absolute time
   double integrand = 0.0;   ///< P [1/s]
   double point_cost = 0.0;  ///< point part [1]
 };
@@ -47,7 +47,8 @@ class NodeSet {
   /// Evaluates all nodes and clears all penalties.
   void sample(const Minco& minco, double start_time);
 
-  /// Adds the gradients of the penalties to those by coefficients and durations, and returns their cost.
+  /// Adds the gradients of the penalties to those with respect to coefficients and durations; returns their
+  /// cost.
   double fold(Minco::Coefficients& wrt_coefficients, Minco::Durations& wrt_durations) const;
 
   [[nodiscard]] int size() const { return size_; }

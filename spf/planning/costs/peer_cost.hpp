@@ -1,5 +1,5 @@
-// Teammates, and obstacles taken to move on at constant velocity (the baseline ES2*): discs on known courses
-// over absolute time. Frame: world.
+// Teammates, and obstacles assumed to move on at constant velocity (the baseline ES2*): discs with known
+// motion over absolute time. Frame: world.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,9 @@ struct PeerCost {
   double weight = 1.0;     ///< [1/s] cost rate at contact
   double clearance = 0.2;  ///< [m] wanted beyond contact
 
-  /// With R the disc's contact distance, C = R + clearance and d the distance of the centres:
-  /// P = weight * sum over discs of max(0, (C^2 - d^2) / (C^2 - R^2))^3, over the nodes 1 .. last_node.
-  /// The discs move with absolute time, which the time gradients contain.
+  /// With R the disc's contact distance, C = R + clearance and d the distance of the centres: P = weight *
+  /// sum over discs of max(0, (C^2 - d^2) / (C^2 - R^2))^3, over the nodes 1 .. last_node. The discs move
+  /// with absolute time, which the time gradients take into account.
   void add(const std::vector<MovingDisc>& discs, int last_node, NodeSet& nodes) const;
 };
 

@@ -1,4 +1,4 @@
-// Smoothness: the jerk integral, relative to the jerk that suits the robot.
+// Smoothness: the jerk integral, relative to a reference jerk of the robot.
 #pragma once
 
 #include "spf/trajectory/minco.hpp"

@@ -7,7 +7,7 @@ namespace spf {
 
 struct SpacingCost {
   double weight = 1.0;   ///< [1]
-  double spacing = 0.3;  ///< [m] distance between neighbouring nodes that costs `weight` on the average
+  double spacing = 0.3;  ///< [m] distance of neighbouring nodes at which the mean cost is `weight`
 
   /// C = weight * mean over neighbours of (|p_{k+1} - p_k| / spacing)^4. A sum over points, not a time
   /// integral.

@@ -10,7 +10,7 @@ namespace spf {
 
 struct StaticCost {
   double hard_weight = 1.0;     ///< [1/s] cost rate on the edge (signed distance 0)
-  double soft_weight = 1.0;     ///< [1/s] about the cost rate on the edge
+  double soft_weight = 1.0;     ///< [1/s] approximate cost rate on the edge
   double hard_clearance = 0.1;  ///< [m] wanted beyond the edge
   double soft_clearance = 0.3;  ///< [m] comfortable beyond the edge
 

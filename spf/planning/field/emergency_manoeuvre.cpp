@@ -14,7 +14,7 @@ constexpr int kDirections = 16;
 constexpr double kSidestepTime = 0.5;           // [s] towards the velocity before braking
 constexpr double kWayOutTime = 1.0;             // [s] likewise, out of a danger region
 constexpr double kEnoughClearance = 0.5 / 0.3;  // [radii of the robot] more is not better
-constexpr double kFarEnough = 0.05 / 0.3;       // [radii of the robot] a way that leads anywhere
+constexpr double kFarEnough = 0.05 / 0.3;       // [radii of the robot] least distance of a way out
 
 /// Constant acceleration towards a velocity for some time, then constant braking to rest.
 Trajectory sidestep(const FlatState& head, const Eigen::Vector2d& velocity, double time, double duration,
@@ -40,7 +40,7 @@ bool better(const ClearanceReport& candidate, const ClearanceReport& best, doubl
   return candidate.time > best.time + 1e-9;
 }
 
-/// What a manoeuvre is judged by.
+/// Order of preference among manoeuvres.
 struct Criterion {
   const ClearanceModel& model;
   double time;                    // [s]
@@ -66,17 +66,17 @@ struct Criterion {
       return candidate.time_in_fields < best.time_in_fields;
     return rest_clearance(candidate) > rest_clearance(best);
   }
-  /// Who runs ahead of the obstacle stays before it: a way out leads to its side, or anywhere but ahead when
-  /// it is short.
+  /// A robot that moves ahead of the obstacle stays in front of it: a way out leads to its side, or anywhere
+  /// but ahead when it takes little time.
   [[nodiscard]] bool leads_out(const EmergencyManoeuvre& manoeuvre) const {
     constexpr double kShort = 0.5;  // [s]
-    constexpr double kSideways =
+    constexpr double kLeastLateral =
         0.65;  // [1] sine of the angle to the obstacle's motion, about least_lateral_share
-    const Eigen::Vector2d way = manoeuvre.trajectory.tail_position() -
-                                manoeuvre.trajectory.position(manoeuvre.trajectory.start_time());
-    const double across = std::abs(cross(axis, way));
-    if (across >= kSideways * way.norm() && way.norm() > kFarEnough * radius) return true;
-    return manoeuvre.time_in_fields <= kShort && axis.dot(way) <= 0.0;
+    const Eigen::Vector2d moved = manoeuvre.trajectory.tail_position() -
+                                  manoeuvre.trajectory.position(manoeuvre.trajectory.start_time());
+    const double across = std::abs(cross(axis, moved));
+    if (across >= kLeastLateral * moved.norm() && moved.norm() > kFarEnough * radius) return true;
+    return manoeuvre.time_in_fields <= kShort && axis.dot(moved) <= 0.0;
   }
   [[nodiscard]] double rest_clearance(const EmergencyManoeuvre& manoeuvre) const {
     return std::min(model.field_clearance(manoeuvre.trajectory.tail_position()), enough());
@@ -105,7 +105,7 @@ EmergencyManoeuvre best_emergency_manoeuvre(const FlatState& head, const Heading
       const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
       for (const double part : {1.0, 0.5}) {
         Trajectory trial = sidestep(head, part * robot.max_speed * direction, time, duration, robot);
-        if (!model.check(trial, only_static).clear()) continue;  // never into a wall to gain time
+        if (!model.check(trial, only_static).clear()) continue;  // not even to gain time
         EmergencyManoeuvre candidate = criterion.judged(trial, true);
         if (!criterion.prefers(candidate, best)) continue;
         candidate.trajectory.set_heading(stopping_heading(heading, time, robot));

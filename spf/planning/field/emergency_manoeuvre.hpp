@@ -1,5 +1,5 @@
-// The last resort of the paper's planner: when no plan is found and standing (or braking) would be run into,
-// the short sidestep that stays clear longest. Frame: world.
+// Last resort of the paper's planner, for when no plan is found and something would run into the stopping
+// robot: the short sidestep that stays clear longest. Frame: world.
 #pragma once
 
 #include "spf/planning/clearance.hpp"
@@ -9,19 +9,19 @@
 namespace spf {
 
 struct EmergencyManoeuvre {
-  Trajectory trajectory;        ///< ends standing
+  Trajectory trajectory;        ///< ends at rest
   ClearanceReport report;       ///< of that trajectory, up to `until`
-  bool sidestep = false;        ///< false: braking is the best there is
-  double time_in_fields = 0.0;  ///< [s] until it is out of the danger regions for good
+  bool sidestep = false;        ///< false: braking is the best
+  double time_in_fields = 0.0;  ///< [s] until it has left the danger regions for good
 };
 
-/// Braking and 16 sidesteps (half a second towards a velocity of full or half speed, then braking), all
-/// within the limits. The clear one with the largest clearance wins, braking at equal clearance; when none is
-/// clear, the one whose first conflict is latest; a sidestep into a static surface is never taken. From a
-/// place in a danger region, where nothing is clear and standing is to wait for the obstacle, the way that
-/// is out of the regions first wins, and among those that are not out in time the one that ends farthest
-/// out, as long as no peer is touched; sidesteps of a second count there too. `model` is prepared for the
-/// present; conflicts are looked for until the absolute time `until` [s].
+/// Best of braking and sidesteps in 16 directions (half a second towards a velocity of full or half speed,
+/// then braking), all within the limits. Sidesteps into static surfaces are excluded. Outside danger regions:
+/// clear ones before others; of these the one with the largest clearance, braking at equal clearance; if none
+/// is clear, the one whose first conflict is latest. Inside a danger region, where stopping means waiting for
+/// the obstacle, the regions are no conflict, sidesteps of a second are tried too, and among the clear ones
+/// those that lead out win, then the one that leaves the regions first, then the one that ends farthest
+/// outside. `model` is prepared for the present; conflicts are searched up to the absolute time `until` [s].
 [[nodiscard]] EmergencyManoeuvre best_emergency_manoeuvre(const FlatState& head, const HeadingState& heading,
                                                           double time, double until,
                                                           const ClearanceModel& model,

@@ -14,7 +14,7 @@ namespace {
 constexpr double kTime = 4.0;     // [s]
 constexpr double kHorizon = 3.0;  // [s]
 
-/// Obstacles at constant velocity: what stands can be run into.
+/// Obstacles at constant velocity, which may run into a stopped robot.
 PlannerParameters planner_parameters() {
   PlannerParameters parameters;
   parameters.dynamic_model = DynamicModel::constant_velocity;
@@ -115,7 +115,7 @@ TEST(EmergencyManoeuvre, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
     // Constant accelerations: exact to rounding.
     EXPECT_LE(trajectory.max_speed(), scene.robot.max_speed * (1.0 + 1e-9));
     EXPECT_LE(trajectory.max_acceleration(), scene.robot.max_acceleration * (1.0 + 1e-9));
-    // The reports say the truth: no contact in a clear one (they count half the margin of 0.05 m).
+    // The reports are correct: no contact in a clear one (they use half the margin of 0.05 m).
     const double gap = scene.gap(trajectory);
     if (manoeuvre.report.clear()) {
       EXPECT_GT(gap, 0.0);
@@ -148,9 +148,9 @@ TEST(EmergencyManoeuvre, WithoutAWayOutTakesTheLatestConflict) {
   EXPECT_GT(manoeuvre.trajectory.tail_position().x(), 0.0);
 }
 
-/// Ten evasions a second of a robot that stands before an obstacle, inside its field.
-double least_gap_of_evasions(const Eigen::Vector2d& obstacle_from, const Eigen::Vector2d& velocity,
-                             const std::vector<Eigen::Vector2d>& wall) {
+/// Ten manoeuvres a second of a robot that stops in front of an obstacle, inside its field.
+double least_gap_of_manoeuvres(const Eigen::Vector2d& obstacle_from, const Eigen::Vector2d& velocity,
+                               const std::vector<Eigen::Vector2d>& wall) {
   EmergencyScene scene;
   if (!wall.empty()) scene.map.add_box(wall[0], wall[1]);
   scene.add(obstacle_from, velocity);
@@ -168,7 +168,7 @@ double least_gap_of_evasions(const Eigen::Vector2d& obstacle_from, const Eigen::
   return least;
 }
 
-/// In the field nothing is clear, and the obstacle does not wait: standing there is to be run over.
+/// In the field nothing is clear, and the obstacle does not wait: a robot that stops there is run over.
 TEST(EmergencyManoeuvre, LeavesTheFieldOfAnObstacleThatComes) {
   for (int i = 0; i < 24; ++i) {
     SCOPED_TRACE(i);
@@ -177,13 +177,13 @@ TEST(EmergencyManoeuvre, LeavesTheFieldOfAnObstacleThatComes) {
     const Eigen::Vector2d beside{-from.y(), from.x()};
     const Eigen::Vector2d start = 1.6 * from + (0.1 + 0.02 * i) * beside;
     ASSERT_LT((start - 0.6 * from).norm(), 1.3);  // the robot lies in the field
-    EXPECT_GT(least_gap_of_evasions(start, -0.6 * from, {}), 0.0);
+    EXPECT_GT(least_gap_of_manoeuvres(start, -0.6 * from, {}), 0.0);
   }
 }
 
 TEST(EmergencyManoeuvre, LeavesTheFieldOnTheOtherSideOfAWall) {
   // 0.1 m of room above the robot, which is the nearer way out of the field.
-  EXPECT_GT(least_gap_of_evasions({1.5, -0.1}, {-0.4, 0.0}, {{-9.0, 0.4}, {9.0, 2.0}}), 0.0);
+  EXPECT_GT(least_gap_of_manoeuvres({1.5, -0.1}, {-0.4, 0.0}, {{-9.0, 0.4}, {9.0, 2.0}}), 0.0);
 }
 
 TEST(EmergencyManoeuvre, TellsHowLongItStaysInTheField) {

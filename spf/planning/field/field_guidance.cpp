@@ -84,7 +84,7 @@ FieldConflict FieldGuidance::conflict_of(const DangerRegion& region, int index, 
   if (chord.norm() < 1e-6) chord = left_of(region.field.axis_world());
   conflict.along = chord.normalized();
 
-  // The natural side is the one most of the gradients lead to; if they are neutral, behind the moving
+  // The natural side is the one to which most of the gradients point; if they are neutral, behind the moving
   // obstacle.
   const Eigen::Vector2d left = left_of(conflict.along);
   double lean = 0.0;
@@ -117,7 +117,7 @@ void FieldGuidance::add_pairs(const std::vector<DangerRegion>& regions, const No
       if (clearance >= safety_distance_) continue;
       GuidePair pair =
           clearance < 0.0 ? inner_pair(region, position, choice) : rim_pair(region, position, clearance);
-      // On the rim of the side that is to be left, other nodes have to pull first.
+      // A node on the rim of the wrong side gets no pair: other nodes have to pull first.
       if (clearance >= 0.0 && choice.decided && pair.normal.dot(side_of(choice)) < 0.0) continue;
       pair.node = k;
       put(pair, pairs);
@@ -129,8 +129,8 @@ Eigen::Vector2d FieldGuidance::side_of(const SideChoice& choice) {
   return static_cast<double>(choice.side) * left_of(choice.along);
 }
 
-/// Outside the ellipse, but nearer than d_saf: eq. 10 is positive there too. The guide point is the foot on
-/// the ellipse along the gradient (to first order).
+/// Pair of a node outside the ellipse, but nearer than d_saf, where eq. 10 is positive too. The guide point
+/// is the foot on the ellipse along the gradient (to first order).
 GuidePair FieldGuidance::rim_pair(const DangerRegion& region, const Eigen::Vector2d& position,
                                   double clearance) const {
   GuidePair pair;
@@ -151,8 +151,8 @@ GuidePair FieldGuidance::inner_pair(const DangerRegion& region, const Eigen::Vec
     mirrored_guide = mirrored_point(natural, choice.entry_world, choice.along);
     direction = mirrored_direction(direction, choice.along);
   }
-  const double sideways = direction.dot(side);
-  if (sideways < least_lateral_share_) {
+  const double lateral = direction.dot(side);
+  if (lateral < least_lateral_share_) {
     const double forward = direction.dot(choice.along) < 0.0 ? -1.0 : 1.0;
     const double rest = std::sqrt(1.0 - least_lateral_share_ * least_lateral_share_);
     direction = forward * rest * choice.along + least_lateral_share_ * side;

@@ -1,5 +1,5 @@
-// Guide points of uncertain moving obstacles (eq. 10-11, Fig. 4): where nodes lie in danger, which side to
-// pass, and the memory of sides that keeps the robot from dithering. Frame: world.
+// Guide points of uncertain moving obstacles (eq. 10-11, Fig. 4): which nodes are in danger, which side to
+// pass on, and the memory of sides that keeps the robot from dithering. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,17 @@
 
 namespace spf {
 
-/// Passing side: of the robot's way through the field, seen along it.
+/// Passing side, as seen along the robot's path through the field.
 enum class PassingSide { right = -1, left = 1 };
 
 /// One obstacle whose field the trajectory enters.
 struct FieldConflict {
-  int region = 0;                                    ///< index among the danger regions
-  int first = 0;                                     ///< first and last dangerous node
-  int last = 0;                                      ///<
-  Eigen::Vector2d along = Eigen::Vector2d::UnitX();  ///< unit, entry to exit: the line of symmetry of Fig. 4
+  int region = 0;                                         ///< index among the danger regions
+  int first = 0;                                          ///< first and last dangerous node
+  int last = 0;                                           ///<
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();       ///< unit, entry to exit: line of symmetry of Fig. 4
   Eigen::Vector2d entry_world = Eigen::Vector2d::Zero();  ///< [m] the line passes through it
-  PassingSide natural = PassingSide::left;                ///< where the gradients of the field lead
+  PassingSide natural = PassingSide::left;                ///< to which the gradients of the field point
 };
 
 /// Which side each region is passed on; by index of the region.
@@ -36,8 +36,8 @@ struct SideChoice {
 class FieldGuidance {
  public:
   /// `safety_distance`: d_saf of eq. 10. `least_lateral_share`: sine of the least angle between a guide
-  /// direction and the line of symmetry. Along the line no side is gained, and a point on the obstacle's axis
-  /// would never leave it (paper_notes 37).
+  /// direction and the line of symmetry. A direction along the line would favour no side, and a point on the
+  /// obstacle's axis would never leave it (paper_notes 37).
   FieldGuidance(double safety_distance, double least_lateral_share);
 
   /// Conflicts of the nodes 1 .. last_node, once per region, in the order of their first node.
@@ -46,14 +46,14 @@ class FieldGuidance {
 
   /// Gives every node of 1 .. last_node in a region, or nearer than d_saf to it, its guide pair; an older
   /// pair of the same node and obstacle is replaced. Guide points in closed form, mirrored at the line of
-  /// symmetry together with their directions where the chosen side asks for it. A region that is met without
-  /// a choice is decided by its gradients.
+  /// symmetry together with their directions where the chosen side requires it. A region without a chosen
+  /// side is passed where its gradients point.
   void add_pairs(const std::vector<DangerRegion>& regions, const NodeSet& nodes, int last_node,
                  const FlatState& head, std::vector<SideChoice>& sides, std::vector<GuidePair>& pairs) const;
 
-  /// Side taken last time, if it is remembered: +1 left, -1 right, 0 unknown.
+  /// Side taken last time, if remembered: +1 left, -1 right, 0 unknown.
   [[nodiscard]] int remembered_side(int track_id, double time) const;
-  /// Records the side a committed plan takes.
+  /// Records the side of a committed plan.
   void remember(int track_id, PassingSide side, double time);
   /// Side changes of one obstacle within the last seconds.
   [[nodiscard]] int side_changes(int track_id, double time) const;

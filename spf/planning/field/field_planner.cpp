@@ -46,7 +46,8 @@ struct StaticSearch {
   }
 };
 
-/// The near part of a plan heeds what moves; never less than it takes to stop twice and to think again.
+/// Last node that takes peers and moving obstacles into account: at `fraction` of the plan, but at least
+/// twice the stopping time plus 1 s ahead.
 int last_moving_node(const NodeSet& nodes, double fraction, bool tail_is_goal, const RobotParameters& robot) {
   const int tail = nodes.size() - 1;
   if (tail_is_goal) return tail;
@@ -57,7 +58,7 @@ int last_moving_node(const NodeSet& nodes, double fraction, bool tail_is_goal, c
 }
 
 /// The planned speed that the wheels can follow in every direction while the robot does not turn (no wheel is
-/// ever faster than the centre then). What is left for turning is found per plan (fitted_heading).
+/// ever faster than the centre then). The remainder for turning is found per plan (fitted_heading).
 RobotParameters within_wheel_limits(RobotParameters robot) {
   robot.max_speed = std::min(robot.max_speed, robot.max_wheel_speed / (1.0 + kSpeedTolerance));
   return robot;
@@ -89,7 +90,7 @@ void FieldPlanner::plan(const PlanRequest& request, PlanResult& result) {
   last_report_ = {};
   finder_.reset_searches();
 
-  // 1. Refuse what cannot be planned; standing at the goal is a plan.
+  // 1. Reject invalid requests; resting at the goal is a plan.
   if (!usable(request)) {
     stand_instead(request, robot_, PlanOutcome::invalid_request, result);
     return;
@@ -98,10 +99,10 @@ void FieldPlanner::plan(const PlanRequest& request, PlanResult& result) {
   // 2. Peers, obstacles and their fields as believed now.
   prepare(request);
   brake_ = braking_trajectory(request.head, request.heading, request.time, robot_);
-  const CostToGoOutcome way = guide.outcome();
-  const bool no_field = way == CostToGoOutcome::no_free_goal;
+  const CostToGoOutcome found = guide.outcome();
+  const bool no_field = found == CostToGoOutcome::no_free_goal;
   if (!no_field && stands_at_goal(request, result)) return;
-  if (no_field || way == CostToGoOutcome::unreachable) {
+  if (no_field || found == CostToGoOutcome::unreachable) {
     conclude(request, PlanOutcome::no_path, result);
     return;
   }
@@ -112,13 +113,14 @@ void FieldPlanner::plan(const PlanRequest& request, PlanResult& result) {
   for (const SeedKind kind : {SeedKind::warm, SeedKind::cold, SeedKind::bowed_left, SeedKind::bowed_right,
                               SeedKind::slow, SeedKind::short_horizon}) {
     if (kind == SeedKind::short_horizon) {
-      if (target.way < planner_.piece_length) break;
-      target = seeds_.local_target(request, guide, clearance_, 0.5 * std::min(target.way, planner_.horizon));
+      if (target.distance < planner_.piece_length) break;
+      target =
+          seeds_.local_target(request, guide, clearance_, 0.5 * std::min(target.distance, planner_.horizon));
     }
     in_budget = try_seed(kind, request, target, result);
     if (best_.valid || !in_budget) break;
   }
-  // 4. The best accepted plan, or the way to rest.
+  // 4. The best accepted plan, or braking.
   conclude(request, in_budget ? PlanOutcome::unsafe : PlanOutcome::deadline, result);
 }
 
@@ -153,7 +155,7 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   (planner_.dynamic_model == DynamicModel::frozen ? problem_.frozen_pairs : problem_.field_pairs) =
       &dynamic_pairs_;
 
-  // Static obstacles in the way of the seed, and obstacles whose field it enters.
+  // Static obstacles that the seed runs through, and obstacles whose field it enters.
   seed_pairs_.clear();
   StaticSearch search{search_, clearance_.map(), robot_.radius + clearance_.static_margin()};
   if (finder_.find(clearance_, nodes, PathSearchRef{search}, seed_pairs_) ==
@@ -163,7 +165,7 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   }
   guidance_.find_conflicts(clearance_.regions(), nodes, problem_.last_moving_node, request.head, conflicts_);
 
-  // Every combination of sides (Fig. 4), the first obstacles first. ES2 knows one side only.
+  // Every combination of sides (Fig. 4), the first obstacles first. ES2 uses one side only.
   const int sides =
       planner_.dynamic_model == DynamicModel::probability_field ? static_cast<int>(conflicts_.size()) : 0;
   int free_sides = 0;
@@ -204,7 +206,7 @@ bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kin
       ++rebounds;
       continue;
     }
-    // Accepted by the same model as every other plan.
+    // The same check as for every other plan.
     const Trajectory trajectory = optimizer_.trajectory();
     const double until = optimizer_.nodes()[problem_.last_moving_node].time;
     last_report_ = clearance_.check(trajectory, {request.time, trajectory.end_time(), until, 1.0, &brake_});
@@ -217,7 +219,7 @@ bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kin
   }
 }
 
-/// One L-BFGS run. Cut short when a node gets into a static obstacle that no pair knows of; its pairs are
+/// One L-BFGS run. Cut short when a node gets into a static obstacle for which there is no pair; pairs are
 /// then added.
 OptimizerResult FieldPlanner::launch(bool may_rebound, bool& rebound, PlanResult& result) {
   int evaluations = 0;
@@ -240,7 +242,7 @@ OptimizerResult FieldPlanner::launch(bool may_rebound, bool& rebound, PlanResult
 
 bool FieldPlanner::answer(const PlanRequest& request) {
   constexpr double kHarder = 2.0;
-  // The field's guide points are taken anew from the present nodes, on the sides that were chosen.
+  // The field's guide points are recomputed at the current nodes, on the chosen sides.
   guidance_.add_pairs(clearance_.regions(), optimizer_.nodes(), problem_.last_moving_node, request.head,
                       sides_, dynamic_pairs_);
   switch (last_report_.kind) {
@@ -267,7 +269,7 @@ bool FieldPlanner::answer(const PlanRequest& request) {
 }
 
 bool FieldPlanner::within_limits(const LimitReport& limits, const FlatState& head) const {
-  // What the head exceeds already (after a push) is no fault of the plan.
+  // An excess that the head has already (after a push) does not count against the plan.
   const double head_speed = head.velocity_world.norm() / robot_.max_speed;
   const double head_acceleration = head.acceleration_world.norm() / robot_.max_acceleration;
   return limits.speed <= std::max(1.0, head_speed) + kSpeedTolerance &&
@@ -301,7 +303,7 @@ double FieldPlanner::side_discount(double time) const {
   return remembered ? 1.0 - kSideBonus : 1.0;
 }
 
-/// Largest risk of any field along the part that heeds what moves.
+/// Largest risk of any field along the part that takes moving obstacles into account.
 double FieldPlanner::risk_of(const Trajectory& trajectory, double until) const {
   constexpr double kStep = 0.1;  // [s]
   double largest = 0.0;

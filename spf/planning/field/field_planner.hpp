@@ -1,6 +1,6 @@
 // The paper's planner (eq. 9-13, Fig. 4) and, by DynamicModel, its baselines ES2 and ES2*: seeds along the
-// guide path, both sides of every obstacle in conflict, L-BFGS over MINCO, and acceptance by the one
-// clearance model. Frame: world.
+// guide path, both sides of every obstacle in conflict, L-BFGS over MINCO, and the common clearance check.
+// Frame: world.
 #pragma once
 
 #include <vector>
@@ -25,10 +25,10 @@ class FieldPlanner final : public Planner {
   /// by the first plan.
   FieldPlanner(const PlannerParameters& planner, const RobotParameters& robot, const FieldParameters& field);
 
-  /// Plans from the request's head to the goal, or as far as the horizon. Only peers that go first are
-  /// planned around, and all that do not move. Without an accepted plan the trajectory is a braking one.
-  /// Whether to follow a braking trajectory at once or to keep the committed plan while contact is far is for
-  /// the caller to decide. Ends within PlannerParameters::max_evaluations cost evaluations.
+  /// Plans from the request's head to the goal, or as far as the horizon, around those peers that go first or
+  /// do not move. Without an accepted plan the trajectory is a braking one; whether to follow it at once, or
+  /// to keep the committed plan while contact is far, is left to the caller. Ends within
+  /// PlannerParameters::max_evaluations cost evaluations.
   void plan(const PlanRequest& request, PlanResult& result) override;
 
   /// The clearance model as of the last plan; also for checks of committed plans.
@@ -39,7 +39,7 @@ class FieldPlanner final : public Planner {
   /// The best optimised trajectory that passed the checks.
   struct Accepted {
     bool valid = false;
-    double cost = 0.0;  // with the bonus of the side
+    double cost = 0.0;  // with the side bonus
     Trajectory trajectory;
     std::vector<SideChoice> sides;
     double moving_until = 0.0;  // [s] absolute
@@ -50,10 +50,11 @@ class FieldPlanner final : public Planner {
   bool stands_at_goal(const PlanRequest& request, PlanResult& result);
   /// One seed, all sides. False when the budget is spent.
   bool try_seed(SeedKind kind, const PlanRequest& request, const LocalTarget& target, PlanResult& result);
-  /// One seed, one combination of sides (sides_): runs and checks in turn. False when the budget is spent.
+  /// One seed, one combination of sides (sides_): runs and checks alternate. False when the budget is spent.
   bool run_candidate(const PlanRequest& request, Candidate::Kind kind, PlanResult& result);
   OptimizerResult launch(bool may_rebound, bool& rebound, PlanResult& result);
-  /// Reacts to a failed check (last_report_) before the next run; false when there is no way.
+  /// Adapts the problem to a failed check (last_report_) before the next run; false when nothing can be
+  /// changed.
   bool answer(const PlanRequest& request);
   [[nodiscard]] bool within_limits(const LimitReport& limits, const FlatState& head) const;
   void keep_best(const PlanRequest& request, const OptimizerResult& run, Candidate::Kind kind,
@@ -61,7 +62,7 @@ class FieldPlanner final : public Planner {
   [[nodiscard]] double side_discount(double time) const;
   [[nodiscard]] double risk_of(const Trajectory& trajectory, double until) const;
   void add_heading(const PlanRequest& request, Trajectory& trajectory) const;
-  /// Hands the best accepted plan over, or brakes with the outcome `failure`.
+  /// Fills the result with the best accepted plan, or with braking and the outcome `failure`.
   void conclude(const PlanRequest& request, PlanOutcome failure, PlanResult& result);
 
   PlannerParameters planner_;
@@ -74,8 +75,8 @@ class FieldPlanner final : public Planner {
   SeedMaker seeds_;
   TrajectoryOptimizer optimizer_;
 
-  // State of the plan under way.
-  TrajectorySeed seed_;     // of the seed tried
+  // State of the current plan.
+  TrajectorySeed seed_;     // of the current seed
   TrajectorySeed current_;  // where the next run of a candidate starts
   TrajectoryProblem problem_;
   std::vector<FieldConflict> conflicts_;

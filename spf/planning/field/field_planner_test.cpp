@@ -127,7 +127,7 @@ TEST(FieldPlanner, PlansThroughSixSquaresWithoutContact) {
     scene.finish(start, -start);
     FieldPlanner planner{PlannerParameters{}, RobotParameters{}, FieldParameters{}};
     PlanResult result;
-    // Plan after plan, each from a place on the last, to the goal.
+    // Plan after plan, each from a position on the last, to the goal.
     Trajectory committed = Trajectory::standing(start, 10.0, 1.0);
     double time = 10.0;
     while (result.outcome != PlanOutcome::goal_reached && time < 50.0) {
@@ -217,7 +217,7 @@ TEST(FieldPlanner, CountsEveryRunOfTheOptimiser) {
   EXPECT_EQ(result.stats.optimiser_calls, 1);
   EXPECT_GT(result.stats.inner_iterations, 1);
   EXPECT_GE(result.stats.evaluations, result.stats.inner_iterations);
-  // A disc in the way: the first run meets it, then each side is run.
+  // A disc on the path: the first run meets it, then each side is run.
   PlannerScene blocked;
   blocked.tracks.push_back(make_track(1, {1.0, 0.05}, {0.0, 0.0}));
   blocked.finish({-3.5, 0.0}, {5.0, 0.0});
@@ -370,7 +370,7 @@ TEST(FieldPlanner, DoesNotLoopNearTheGoal) {
 }
 
 TEST(FieldPlanner, BrakesWhenThereIsNoSafePlan) {
-  // A corridor as wide as one robot, and a robot of higher priority that comes the other way.
+  // A corridor as wide as one robot, and an oncoming robot of higher priority.
   PlannerScene scene;
   Peer peer;
   peer.robot_id = 1;

@@ -10,12 +10,12 @@ namespace {
 constexpr double kRetryFirst = 0.2;    // [s] back-off after a failed plan; it doubles each time
 constexpr double kRetryLongest = 1.6;  // [s] longest back-off
 constexpr double kCommittedMargin =
-    0.5;  // [1] of the margins: a plan is not dropped for what it was accepted with
-constexpr double kEvasionHorizon = 3.0;  // [s]
-constexpr double kLinger = 0.5;          // [s] longer in a field than the quickest way out, at most
-constexpr double kTimeTolerance = 1e-9;  // [s]
+    0.5;  // [1] of the margins: a plan is not dropped for a clearance with which it was accepted
+constexpr double kManoeuvreHorizon = 3.0;  // [s]
+constexpr double kLinger = 0.5;            // [s] longer in a field than the quickest way out, at most
+constexpr double kTimeTolerance = 1e-9;    // [s]
 
-/// Does this peer come after the robot?
+/// Does this peer have to yield to the robot?
 bool yields(const WorldSnapshot& world, int peer_id) {
   const auto peer = std::find_if(world.peers->begin(), world.peers->end(),
                                  [peer_id](const Peer& candidate) { return candidate.robot_id == peer_id; });
@@ -45,18 +45,17 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
                                                    const PlanRequest& request) const {
   Threat threat;
   const double stop_time = request.head.velocity_world.norm() / robot_.max_acceleration;
-  const double until = std::max(trajectory.end_time(), request.time + kEvasionHorizon);
+  const double until = std::max(trajectory.end_time(), request.time + kManoeuvreHorizon);
   threat.report = check_.check(trajectory, {request.time, until, until, kCommittedMargin});
   threat.conflict = !threat.report.clear();
   threat.urgent =
       threat.conflict && threat.report.time - request.time < stop_time + replanning_.emergency_time;
-  // A peer that comes after this robot will plan around it: only when it gets close is it this robot's
-  // matter.
+  // A peer that has to yield will plan around this robot, which reacts only when the peer gets close.
   if (threat.report.kind == ConflictKind::peer && !threat.urgent && yields(request.world, threat.report.id))
     threat.conflict = false;
-  // The obstacle may be here soon: a trajectory has to leave, and about as soon as can be.
+  // The obstacle may be here soon: a trajectory has to leave the regions nearly as fast as possible.
   if (in_fields_) {
-    const double stay = check_.time_in_fields(trajectory, request.time, request.time + kEvasionHorizon);
+    const double stay = check_.time_in_fields(trajectory, request.time, request.time + kManoeuvreHorizon);
     threat.in_field = stay > way_out_.time_in_fields + kLinger;
     threat.conflict = threat.conflict || threat.in_field;
     threat.urgent = threat.urgent || threat.in_field;
@@ -64,12 +63,12 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
   return threat;
 }
 
-/// A robot in a danger region has to know how soon it could be out.
-void FieldReplanning::look_for_way_out(const PlanRequest& request) {
+/// Finds the quickest way out for a robot in a danger region.
+void FieldReplanning::find_way_out(const PlanRequest& request) {
   in_fields_ = replanning_.retreat && check_.field_clearance(request.head.position_world) < 0.0;
   if (!in_fields_) return;
   way_out_ = best_emergency_manoeuvre(request.head, request.heading, request.time,
-                                      request.time + kEvasionHorizon, check_, robot_);
+                                      request.time + kManoeuvreHorizon, check_, robot_);
 }
 
 bool FieldReplanning::plan_due(const PlanRequest& request, const Threat& threat) const {
@@ -86,12 +85,12 @@ void FieldReplanning::plan(const PlanRequest& request, PlanResult& result) {
     return;
   }
   meet_goal(request.goal_world);
-  // 1. What lies ahead on the committed trajectory, up to its end and against everybody.
+  // 1. Conflicts ahead on the committed trajectory, up to its end and with all peers.
   check_.prepare(request.world, request.time, PeerSelection::all);
-  look_for_way_out(request);
+  find_way_out(request);
   Threat threat;
   if (request.committed != nullptr) threat = threat_to(*request.committed, request);
-  // 2. A new plan when it is time for one; else the committed one, as long as it leads to no early contact.
+  // 2. A new plan when one is due; else the committed one, as long as it leads to no early contact.
   if (plan_due(request, threat)) {
     attempt(request, threat, result);
   } else {
@@ -109,7 +108,7 @@ void FieldReplanning::plan(const PlanRequest& request, PlanResult& result) {
 
 void FieldReplanning::attempt(const PlanRequest& request, const Threat& threat, PlanResult& result) {
   planner_.plan(request, result);
-  // Good, unless it is itself in for an early contact with somebody that it does not plan around.
+  // Accept it, unless it has an early contact with a peer that it did not plan around.
   if (succeeded(result.outcome) && !threat_to(result.trajectory, request).urgent) {
     last_plan_time_ = request.time;
     retry_time_ = -1e9;
@@ -129,16 +128,16 @@ void FieldReplanning::name_blocker(const PlanRequest& request, PlanResult& resul
   if (named || !guide.ready() || result.outcome == PlanOutcome::no_path) return;
   const double step = 0.5 * robot_.radius;
   for (double ahead = 0.0; ahead <= horizon_; ahead += step) {
-    const Eigen::Vector2d place = guide.descend(request.head.position_world, ahead);
+    const Eigen::Vector2d position = guide.descend(request.head.position_world, ahead);
     for (const MovingDisc& disc : check_.discs()) {
       DiscCursor cursor{disc};
       cursor.move_to(request.time);
-      if ((place - cursor.position()).norm() > disc.radius) continue;
+      if ((position - cursor.position()).norm() > disc.radius) continue;
       (disc.is_peer ? result.blocking_peer : result.blocking_track) = disc.id;
       return;
     }
     for (const DangerRegion& region : check_.regions()) {
-      if (region.field.clearance(place, region.threshold) > 0.0) continue;
+      if (region.field.clearance(position, region.threshold) > 0.0) continue;
       result.blocking_track = region.id;
       return;
     }
@@ -158,13 +157,13 @@ void FieldReplanning::fail(const PlanRequest& request, const Threat& threat, Pla
   const EmergencyManoeuvre manoeuvre =
       in_fields_ ? way_out_
                  : best_emergency_manoeuvre(request.head, request.heading, request.time,
-                                            request.time + kEvasionHorizon, check_, robot_);
+                                            request.time + kManoeuvreHorizon, check_, robot_);
   if (manoeuvre.sidestep && replanning_.retreat) {
     result.action = PlanAction::brake;
     result.trajectory = manoeuvre.trajectory;
     return;
   }
-  if (request.braking) return keep(request, result);  // it brakes, or stands, already
+  if (request.braking) return keep(request, result);  // it is braking or at rest already
   result.action = PlanAction::brake;
   result.trajectory = braking_trajectory(request.head, request.heading, request.time, robot_);
 }

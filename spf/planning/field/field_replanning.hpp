@@ -1,6 +1,6 @@
-// The paper's method behind the door (and its baselines, by DynamicModel): when the FieldPlanner is asked
-// again, and what is done when it finds nothing: keep the plan, brake, step aside, try again later. Every
-// robot brakes for every peer here, whatever its rank. Candidates are compared by eq. 9 [1].
+// The paper's method (and its baselines, by DynamicModel) as a Planner: decides when FieldPlanner runs again,
+// and what to do when it finds nothing: keep the plan, brake, step aside, try again later. Every robot brakes
+// for every peer here, whatever its rank. Candidates are compared by eq. 9 [1].
 #pragma once
 
 #include "spf/planning/field/emergency_manoeuvre.hpp"
@@ -15,20 +15,20 @@ class FieldReplanning final : public Planner {
   FieldReplanning(const PlannerParameters& planner, const RobotParameters& robot,
                   const FieldParameters& field, const ReplanningParameters& replanning);
 
-  /// A check that plans nothing says again what the last attempt came to.
+  /// A check without a new plan repeats the outcome of the last attempt.
   void plan(const PlanRequest& request, PlanResult& result) override;
-  /// It reports `no_path` and stands.
+  /// It reports `no_path` and stops.
   [[nodiscard]] bool approaches_cut_off_goal() const override { return false; }
 
  private:
-  /// What the committed trajectory is in for.
+  /// Conflicts ahead on a trajectory.
   struct Threat {
     bool conflict = false;
-    bool urgent = false;    ///< sooner than it takes to stop, and the emergency time
+    bool urgent = false;    ///< sooner than the stopping time plus the emergency time
     bool in_field = false;  ///< stays in a danger region longer than the quickest way out
     ClearanceReport report;
   };
-  /// What the last attempt came to.
+  /// Outcome of the last attempt.
   struct Attempt {
     PlanOutcome outcome = PlanOutcome::success;
     double risk = 0.0;  // [1]
@@ -37,10 +37,10 @@ class FieldReplanning final : public Planner {
   };
   void meet_goal(const Eigen::Vector2d& goal_world);
   [[nodiscard]] Threat threat_to(const Trajectory& trajectory, const PlanRequest& request) const;
-  void look_for_way_out(const PlanRequest& request);
+  void find_way_out(const PlanRequest& request);
   [[nodiscard]] bool plan_due(const PlanRequest& request, const Threat& threat) const;
   void attempt(const PlanRequest& request, const Threat& threat, PlanResult& result);
-  /// Names the first moving thing on the guide's way when the planner ended without a name.
+  /// Names the first moving obstacle or peer on the guide path when the planner named none.
   void name_blocker(const PlanRequest& request, PlanResult& result) const;
   static void keep(const PlanRequest& request, PlanResult& result);
   void fail(const PlanRequest& request, const Threat& threat, PlanResult& result);
@@ -48,8 +48,8 @@ class FieldReplanning final : public Planner {
   RobotParameters robot_;
   ReplanningParameters replanning_;
   double horizon_;              // [m] of the planner
-  EmergencyManoeuvre way_out_;  // of the fields that hold the robot; of this check
-  bool in_fields_ = false;      // they do
+  EmergencyManoeuvre way_out_;  // of the danger regions that contain the robot; of this check
+  bool in_fields_ = false;      // some region does
   FieldPlanner planner_;
   ClearanceModel check_;  // against all peers
   Attempt last_;

@@ -18,7 +18,7 @@ GridSearch::GridSearch(const GridSearchParameters& parameters) : parameters_{val
   parent_.resize(nodes);
   closed_.resize(nodes);
   path_.reserve(std::min(nodes, static_cast<std::size_t>(parameters_.node_budget) + 1));
-  // Every expanded node offers at most 8 times; a search ends before the heap outgrows this.
+  // Every expanded node pushes at most 8 entries; a search ends before the heap outgrows this.
   heap_.reserve(8 * std::min(nodes, static_cast<std::size_t>(parameters_.node_budget)) + 1);
 }
 
@@ -85,7 +85,7 @@ double GridSearch::node_distance(const OccupancyMap& map, std::int32_t node) con
   return map.node_distance(window_.low_i + node % window_.width, window_.low_j + node / window_.width);
 }
 
-// Rings of nodes about the wanted place; -1 when none is free within push_distance.
+// Rings of nodes around the wanted position; -1 when none is free within push_distance.
 std::int32_t GridSearch::nearest_free(const OccupancyMap& map, const Eigen::Vector2d& wanted) const {
   const Eigen::Vector2i centre = map.frame().nearest_node(wanted);
   const int reach = static_cast<int>(std::ceil(parameters_.push_distance / resolution_)) + 1;

@@ -1,5 +1,5 @@
-// Shortest ways over the nodes of an occupancy map that keep a clearance: A* with eight neighbours. For local
-// detours (guide pairs of the base planner); the way to the goal as a whole is CostToGo's. Frame: world.
+// Shortest paths over the nodes of an occupancy map that keep a clearance: A* with eight neighbours. For
+// local detours (guide pairs of the base planner); the global path to the goal is CostToGo's. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ struct GridSearchParameters {
 
 enum class GridSearchOutcome {
   found,
-  no_path,      ///< the window holds no way
+  no_path,      ///< the window contains no path
   blocked_end,  ///< no free node near the start or the goal (or they are not finite or out of the window)
   budget_exhausted,  ///< node_budget spent
   window_too_large,  ///< more nodes than window_nodes: ask for a smaller window
@@ -38,24 +38,25 @@ enum class GridSearchOutcome {
 struct GridSearchRequest {
   Eigen::Vector2d start_world = Eigen::Vector2d::Zero();
   Eigen::Vector2d goal_world = Eigen::Vector2d::Zero();
-  double clearance = 0.3;               ///< [m] nodes nearer to a surface are blocked
-  std::optional<double> window_margin;  ///< [m] room around the box of start and goal; absent: all of the map
+  double clearance = 0.3;  ///< [m] nodes nearer to a surface are blocked
+  std::optional<double>
+      window_margin;  ///< [m] margin around the box of start and goal; absent: the whole map
 };
 
 struct GridSearchResult {
   GridSearchOutcome outcome = GridSearchOutcome::no_path;
   double cost = 0.0;  ///< [m] length
-  int expanded = 0;   ///< nodes taken from the heap for good
+  int expanded = 0;   ///< nodes closed
 };
 
 class GridSearch {
  public:
-  /// All memory is taken here. Throws std::invalid_argument on parameters out of range.
+  /// All memory is allocated here. Throws std::invalid_argument on parameters out of range.
   explicit GridSearch(const GridSearchParameters& parameters = {});
 
-  /// Searches; does not allocate. The way is then in path().
+  /// Searches; does not allocate. The result is in path().
   GridSearchResult search(const OccupancyMap& map, const GridSearchRequest& request);
-  /// Nodes from start to goal of the last search, positions in world; empty unless it found a way. The first
+  /// Nodes from start to goal of the last search, positions in world; empty unless one was found. The first
   /// and the last node are the nearest free ones to start and goal, not these themselves.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& path() const { return path_; }
 
@@ -81,7 +82,7 @@ class GridSearch {
   double clearance_ = 0.0;
   double resolution_ = 0.0;
   Window window_{};
-  std::uint32_t generation_ = 0;        // of this search; older marks are void
+  std::uint32_t generation_ = 0;        // of this search; older marks are invalid
   std::vector<std::uint32_t> seen_in_;  // generation in which a node got its cost
   std::vector<float> cost_;             // [m]
   std::vector<std::int32_t> parent_;

@@ -114,7 +114,7 @@ TEST(GridSearch, MovesEndsToTheNearestFreeNodes) {
 
 TEST(GridSearch, KeepsItsBudgetAndItsWindow) {
   OccupancyMap map{GridFrame::covering({-3.0, -3.0}, {3.0, 3.0}, 0.1), 1.5};
-  map.add_box({-0.2, -2.0}, {0.2, 3.0});  // the way round leads far below
+  map.add_box({-0.2, -2.0}, {0.2, 3.0});  // the detour leads far below
   GridSearchRequest request;
   request.start_world = {-1.0, 2.0};
   request.goal_world = {1.0, 2.0};

@@ -7,11 +7,11 @@
 namespace spf {
 namespace {
 
-constexpr double kStep = 0.1;     // [radii of the robot] between dense samples in doubt
+constexpr double kStep = 0.1;     // [radii of the robot] between dense samples where needed
 constexpr int kMaxSubsteps = 40;  // of one interval
-// [radii] a pair explains a collision unless the node is this far on its good side
+// [radii] a pair accounts for a collision unless the node is this far on its safe side
 constexpr double kExplained = 0.05 / 0.3;
-constexpr double kOutOfSurface = 0.01 / 0.3;  // [radii] endpoints of a search keep this beyond the margin
+constexpr double kOutOfSurface = 0.01 / 0.3;  // [radii] clearance of a search's endpoints beyond the margin
 
 /// Cubic through two neighbouring nodes with their velocities, u in [0, 1].
 Eigen::Vector2d between(const NodeSet& nodes, int k, double u) {
@@ -23,7 +23,7 @@ Eigen::Vector2d between(const NodeSet& nodes, int k, double u) {
          u * v * dt * (v * a.velocity - u * b.velocity);
 }
 
-/// The place moved out of the static margin along the distance gradient; unchanged when it is free.
+/// The position moved out of the static margin along the distance gradient; unchanged when it is free.
 Eigen::Vector2d moved_out(const ClearanceModel& model, Eigen::Vector2d position) {
   const double wanted = kOutOfSurface * model.robot_radius();
   for (int i = 0; i < 10; ++i) {
@@ -68,7 +68,7 @@ bool GuidePairFinder::collect_stretches(const ClearanceModel& model, const NodeS
   int first = 0;
   const auto close = [&](int last) {
     if (!stretches_.empty() && first < stretches_.back().last)
-      stretches_.back().last = last;  // left and met again between the same two nodes
+      stretches_.back().last = last;  // left and entered again between the same two nodes
     else
       stretches_.push_back({first, last});
   };
@@ -76,7 +76,7 @@ bool GuidePairFinder::collect_stretches(const ClearanceModel& model, const NodeS
   for (int k = 0; k + 1 < nodes.size(); ++k) {
     const double gap = (nodes[k + 1].position - nodes[k].position).norm();
     const double next = model.static_clearance(nodes[k + 1].position);
-    // The curve between two nodes stays within their gap of the nearer one, with room for its bend.
+    // The curve between two nodes stays within their gap of the nearer one, with allowance for its curvature.
     const bool surely_free = !inside && std::min(here, next) > 0.75 * gap;
     if (!surely_free) {
       const int steps =
@@ -139,10 +139,10 @@ bool GuidePairFinder::add_pairs(const ClearanceModel& model, const NodeSet& node
   return true;
 }
 
-/// The half plane of one place: across its normal plane to the path, back to the surface.
+/// The half plane of one position: from where the path crosses the plane through it, back to the surface.
 bool GuidePairFinder::pair_at(const ClearanceModel& model, const Eigen::Vector2d& position,
                               const Eigen::Vector2d& tangent, GuidePair& pair) const {
-  // 1. Nearest place where the path crosses the plane through `position` across the tangent.
+  // 1. Nearest point where the path crosses the plane through `position` perpendicular to the tangent.
   Eigen::Vector2d crossing = Eigen::Vector2d::Zero();
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
@@ -158,8 +158,8 @@ bool GuidePairFinder::pair_at(const ClearanceModel& model, const Eigen::Vector2d
   }
   if (!(least < std::numeric_limits<double>::infinity()) || least < 1e-3) return false;
 
-  // 2. From there back towards `position` to the last free place. The clearance is a distance, so steps may
-  // be as large as it.
+  // 2. From there back towards `position` to the last free point. The clearance is a distance, so steps may
+  //    be as large as it.
   pair.normal = (crossing - position) / least;
   const double smallest_step = model.robot_radius() / 60.0;
   double travelled = 0.0;
@@ -173,7 +173,7 @@ bool GuidePairFinder::pair_at(const ClearanceModel& model, const Eigen::Vector2d
     free_until = travelled;
     travelled += std::max(clearance, smallest_step);
   }
-  return false;  // nothing between the path and the place
+  return false;  // no surface between the path and the position
 }
 
 bool GuidePairFinder::new_collision(const ClearanceModel& model, const NodeSet& nodes,

@@ -1,6 +1,6 @@
-// Guide pairs of static obstacles: where a trajectory runs through one, a path search finds the way round,
-// and each node in the obstacle gets a half plane whose edge is the surface as seen from that way. Frame:
-// world.
+// Guide pairs of static obstacles: where a trajectory runs through one, a path search finds a detour, and
+// each node in the obstacle gets a half plane whose border touches the surface on the side of the detour.
+// Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +13,8 @@
 
 namespace spf {
 
-/// Reference to a path search between two free places: fills a polyline from `from` to `to` that keeps the
-/// static clearance and says whether there is one.
+/// Reference to a path search between two free positions: fills a polyline from `from` to `to` that keeps the
+/// static clearance; false when there is none.
 class PathSearchRef {
  public:
   template <class Search>
@@ -37,9 +37,9 @@ class PathSearchRef {
 class GuidePairFinder {
  public:
   enum class Outcome {
-    clear,    ///< nothing in the way
+    clear,    ///< no collision
     added,    ///< pairs were appended
-    blocked,  ///< the tail lies in an obstacle, or no way leads round one
+    blocked,  ///< the tail lies in an obstacle, or there is no detour around one
   };
 
   explicit GuidePairFinder(int max_nodes);
@@ -50,8 +50,7 @@ class GuidePairFinder {
   Outcome find(const ClearanceModel& model, const NodeSet& nodes, PathSearchRef search,
                std::vector<GuidePair>& pairs);
 
-  /// Whether a node stands in an obstacle that its pairs do not know of: the run must be cut short
-  /// ("rebound").
+  /// Whether a node lies in an obstacle for which it has no pair: the run must be cut short ("rebound").
   [[nodiscard]] static bool new_collision(const ClearanceModel& model, const NodeSet& nodes,
                                           const std::vector<GuidePair>& pairs);
 

@@ -72,7 +72,7 @@ TEST(GuidePairs, NothingInTheWayNeedsNone) {
 
 TEST(GuidePairs, StandOnTheSurfaceAndPointToTheWayRound) {
   Fixture f;
-  f.map.add_box({-1.0, -1.5}, {1.0, 1.0});  // the shorter way is above
+  f.map.add_box({-1.0, -1.5}, {1.0, 1.0});  // the shorter detour is above
   f.begin();
   f.straight({-4.0, 0.0}, {4.0, 0.0}, 5);
   ASSERT_EQ(f.find(), GuidePairFinder::Outcome::added);
@@ -94,7 +94,7 @@ TEST(GuidePairs, LeadTheOptimiserRoundABox) {
       f.begin();
       f.straight({-4.0, 0.0}, {4.0, 0.0}, 5);
       ASSERT_EQ(f.find(), GuidePairFinder::Outcome::added);
-      // As the planner does: run, look again, run again.
+      // As the planner does: run, check, run again.
       for (int i = 0; i < 6; ++i) {
         f.optimizer.optimise(f.problem, f.optimizer.solution());
         if (f.find() == GuidePairFinder::Outcome::clear) break;

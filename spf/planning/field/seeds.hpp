@@ -1,4 +1,4 @@
-// Where a plan leads to (local target) and what the optimiser starts from (seeds). Frame: world.
+// The end of a plan (local target) and the optimiser's initial guesses (seeds). Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,15 +18,15 @@ enum class SeedKind {
   cold,        ///< along the guide path
   bowed_left,  ///< along the guide path, bent to one side
   bowed_right,
-  slow,           ///< along the guide path in more time: lets others pass first
+  slow,           ///< along the guide path in more time, to let others pass first
   short_horizon,  ///< to a target at half the horizon
 };
 
 /// Tail of the plan.
 struct LocalTarget {
-  FlatState state;       ///< the goal at rest, or a place on the way at cruising speed
-  bool is_goal = false;  ///< the plan ends at the goal
-  double way = 0.0;      ///< [m] from the head along the guide path
+  FlatState state;        ///< the goal at rest, or a position on the path at cruising speed
+  bool is_goal = false;   ///< the plan ends at the goal
+  double distance = 0.0;  ///< [m] from the head along the guide path
 };
 
 /// Makes targets and seeds; keeps the guide path's corners between calls.
@@ -34,8 +34,9 @@ class SeedMaker {
  public:
   SeedMaker(const PlannerParameters& planner, const RobotParameters& robot);
 
-  /// The place after `horizon` metres of the guide path, or the goal when it is nearer. A place on the way
-  /// that is not free (static, or something stands there) is moved along the path, backwards first.
+  /// The position after `horizon` metres of the guide path, or the goal when it is nearer. A position on the
+  /// path that is not free (static, or occupied by something at rest) is moved along the path, backwards
+  /// first.
   [[nodiscard]] LocalTarget local_target(const PlanRequest& request, const CostToGo& guide,
                                          const ClearanceModel& clearance, double horizon);
 
@@ -45,16 +46,16 @@ class SeedMaker {
                           TrajectorySeed& seed);
 
  private:
-  [[nodiscard]] Eigen::Vector2d on_way(double distance) const;
-  [[nodiscard]] int pieces_for(double way) const;
-  void along_way(const PlanRequest& request, const LocalTarget& target, double bow, double stretch,
-                 TrajectorySeed& seed) const;
+  [[nodiscard]] Eigen::Vector2d on_path(double distance) const;
+  [[nodiscard]] int pieces_for(double distance) const;
+  void along_path(const PlanRequest& request, const LocalTarget& target, double bow, double stretch,
+                  TrajectorySeed& seed) const;
   [[nodiscard]] bool from_committed(const PlanRequest& request, const LocalTarget& target,
                                     TrajectorySeed& seed) const;
 
   PlannerParameters planner_;
   RobotParameters robot_;
-  std::vector<Eigen::Vector2d> way_;  // corners from the head to the goal
+  std::vector<Eigen::Vector2d> path_;  // corners from the head to the goal
 };
 
 }  // namespace spf

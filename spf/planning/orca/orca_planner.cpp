@@ -12,14 +12,15 @@
 namespace spf {
 namespace {
 
-constexpr int kStaticSamples = 12;       // places around the robot from which static surfaces are sought
-constexpr double kRightHandBias = 0.01;  // [rad] the wanted velocity turns right by this when others are near
-constexpr double kParallel = 1e-12;      // [1] sine of the angle between lines that count as parallel
-constexpr double kSlack = 1e-10;         // [m/s] rounding that is no violation
-constexpr double kStandingSpeed = 1e-6;  // [m/s] slower is standing
-constexpr double kStandingTime = 1.0;    // [s] length of a standing trajectory
+constexpr int kStaticSamples = 12;  // positions around the robot from which static surfaces are sought
+constexpr double kRightHandBias =
+    0.01;                            // [rad] the preferred velocity turns right by this when others are near
+constexpr double kParallel = 1e-12;  // [1] sine of the angle between lines that count as parallel
+constexpr double kSlack = 1e-10;     // [m/s] below this a violation is rounding
+constexpr double kRestSpeed = 1e-6;  // [m/s] slower counts as stopped
+constexpr double kRestTime = 1.0;    // [s] duration of a trajectory at rest
 
-/// What a linear programme wants: a place to be near, or a direction to go far in.
+/// Objective of a linear programme: to be near a point, or far along a direction.
 struct Objective {
   Eigen::Vector2d target;
   bool is_direction = false;
@@ -70,21 +71,21 @@ std::size_t solve(const std::vector<HalfPlane>& planes, std::size_t count, const
   return count;
 }
 
-/// The nearest place of a static surface, by walking down the distance field; none when the field is cut off
-/// there or does not lead to a surface.
+/// The nearest point of a static surface, by descent of the distance field; none where the field is truncated
+/// or does not lead to a surface.
 std::optional<Eigen::Vector2d> nearest_surface(const OccupancyMap& map, const Eigen::Vector2d& sample) {
-  Eigen::Vector2d place = sample;
-  double distance = map.distance(place);
+  Eigen::Vector2d position = sample;
+  double distance = map.distance(position);
   if (distance >= map.max_distance() - map.frame().resolution) return std::nullopt;
   for (int i = 0; i < 4 && std::abs(distance) > 0.1 * map.frame().resolution; ++i) {
-    const Eigen::Vector2d gradient = map.distance_gradient(place);
+    const Eigen::Vector2d gradient = map.distance_gradient(position);
     const double steepness = gradient.norm();
     if (!(steepness > 1e-6)) return std::nullopt;
-    place -= gradient * (distance / steepness);
-    distance = map.distance(place);
+    position -= gradient * (distance / steepness);
+    distance = map.distance(position);
   }
   if (std::abs(distance) > map.frame().resolution) return std::nullopt;
-  return place;
+  return position;
 }
 
 /// Constant acceleration (or none) from one velocity to another.
@@ -110,7 +111,7 @@ HalfPlane allowed_velocities(const Encounter& encounter, double horizon, double 
   const double length = from_cut_off.norm();
 
   HalfPlane plane;
-  double change = 0.0;  // [m/s] along the normal, that brings the relative velocity to the border
+  double change = 0.0;  // [m/s] along the normal, to bring the relative velocity to the border
   const bool round_end =
       !apart || -from_cut_off.dot(x) > length * reach;  // the border's round part is nearest
   if (round_end) {
@@ -181,23 +182,23 @@ OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters
 void OrcaPlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.clear();
   if (!usable(request) || !request.guide->ready()) {
-    const bool no_goal = usable(request);  // the guide found no free place near it
+    const bool no_goal = usable(request);  // no free position near the goal
     stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
     return;
   }
-  // 1. Where to, and who is near.
+  // 1. The preferred velocity and the neighbours.
   collect_neighbours(request);
   const Eigen::Vector2d wanted = wanted_velocity(request);
-  // 2. What the surroundings leave of the velocities.
+  // 2. The half-planes of allowed velocities.
   planes_.clear();
   add_static_planes(request, wanted);
   const std::size_t hard_count = planes_.size();
   add_neighbour_planes();
-  // 3. The allowed velocity closest to the wanted one, as a trajectory.
+  // 3. The allowed velocity closest to the preferred one, as a trajectory.
   const VelocityChoice choice = programme_.choose(planes_, hard_count, wanted, robot_.max_speed);
   result.trajectory = trajectory_for(request, choice.velocity);
   result.action = PlanAction::follow;
-  // 4. For the record.
+  // 4. Risk, statistics and outcome.
   result.risk = choice.feasible ? 0.0 : 1.0;
   result.stats.primitives = 1;
   name_what_blocks(wanted, result);
@@ -207,7 +208,7 @@ void OrcaPlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.candidates.push_back({Candidate::Kind::primitive, departure, result.risk, true, result.trajectory});
 }
 
-/// Along the guide at max_speed, but stoppable at the goal.
+/// Along the guide at max_speed, slower where the robot has to stop at the goal.
 Eigen::Vector2d OrcaPlanner::wanted_velocity(const PlanRequest& request) const {
   const CostToGo& guide = *request.guide;
   const Eigen::Vector2d& position = request.head.position_world;
@@ -225,10 +226,10 @@ Eigen::Vector2d OrcaPlanner::wanted_velocity(const PlanRequest& request) const {
   return std::cos(bias) * velocity - std::sin(bias) * left_of(velocity);
 }
 
-// Surfaces are sought from the robot's place and from a circle halfway to the farthest surface that matters:
-// the nearest surface point of each sample, found by the distance field. Every point is a disc of no size
-// that stands still. The nearest point of all is always among them, both walls of an inner corner are, and
-// gaps between points of a wall close as the robot comes near.
+// Surfaces are sampled from the robot's position and from a circle halfway to the farthest relevant surface:
+// the nearest surface point of each sample, found by the distance field, counts as a fixed disc of radius
+// zero. The nearest point of all is always among them, both walls of an inner corner are, and gaps between
+// points of a wall close as the robot approaches.
 void OrcaPlanner::add_static_planes(const PlanRequest& request, const Eigen::Vector2d& wanted) {
   const OccupancyMap& map = *request.world.map;
   const Eigen::Vector2d& position = request.head.position_world;
@@ -238,7 +239,7 @@ void OrcaPlanner::add_static_planes(const PlanRequest& request, const Eigen::Vec
   surface_points_.clear();
   if (distance > farthest) return;
   const Eigen::Vector2d outward = map.distance_gradient(position).stableNormalized();
-  if (!(distance > 0.0)) {  // inside a wall: out of it by the shortest way
+  if (!(distance > 0.0)) {  // inside a wall: straight out of it
     planes_.push_back(
         {outward.isZero() ? Eigen::Vector2d{1.0, 0.0} : outward, (reach - distance) / parameters_.period});
     return;
@@ -258,9 +259,9 @@ void OrcaPlanner::add_static_planes(const PlanRequest& request, const Eigen::Vec
 }
 
 void OrcaPlanner::add_surface_point(const PlanRequest& request, const Eigen::Vector2d& sample) {
-  const std::optional<Eigen::Vector2d> place = nearest_surface(*request.world.map, sample);
-  if (!place) return;
-  const Eigen::Vector2d point = *place - request.head.position_world;
+  const std::optional<Eigen::Vector2d> surface = nearest_surface(*request.world.map, sample);
+  if (!surface) return;
+  const Eigen::Vector2d point = *surface - request.head.position_world;
   const double apart = request.world.map->frame().resolution;
   for (const Eigen::Vector2d& known : surface_points_) {
     if ((known - point).squaredNorm() < apart * apart) return;
@@ -275,7 +276,7 @@ void OrcaPlanner::collect_neighbours(const PlanRequest& request) {
     for (const Peer& peer : *request.world.peers) {
       if (peer.trajectory->empty()) continue;
       Neighbour neighbour;
-      // Who moves shares the work; who has stopped, brakes or fell silent does not.
+      // A moving peer shares the avoidance; one that has stopped, brakes or fell silent does not.
       const bool shares = peer.state == PeerState::moving && !peer.expired;
       neighbour.encounter = {peer.position(time) - request.head.position_world, request.head.velocity_world,
                              peer.velocity(time), 0.0, shares ? 0.5 : 1.0};
@@ -288,9 +289,9 @@ void OrcaPlanner::collect_neighbours(const PlanRequest& request) {
   if (request.world.tracks == nullptr) return;
   for (const ObstacleTrack& track : *request.world.tracks) {
     Neighbour neighbour;
-    const Eigen::Vector2d place =
+    const Eigen::Vector2d position =
         track.state.position_world + (time - track.time) * track.state.velocity_world;
-    neighbour.encounter = {place - request.head.position_world, request.head.velocity_world,
+    neighbour.encounter = {position - request.head.position_world, request.head.velocity_world,
                            track.state.velocity_world, 0.0, parameters_.obstacle_share};
     neighbour.way_out = Eigen::Vector2d::UnitY();
     neighbour.id = track.id;
@@ -303,13 +304,13 @@ void OrcaPlanner::collect(Neighbour neighbour, double other_radius) {
   const double radii = robot_.radius + other_radius;
   neighbour.encounter.reach = radii + parameters_.margin;
   neighbour.gap = neighbour.encounter.offset.norm() - radii;
-  // Written so that what is no number does not count.
+  // Written so that NaN is left out.
   if (!(neighbour.gap <= parameters_.neighbour_distance) || !neighbour.encounter.other_velocity.allFinite()) {
     return;
   }
-  const auto place = std::upper_bound(neighbours_.begin(), neighbours_.end(), neighbour,
-                                      [](const Neighbour& a, const Neighbour& b) { return a.gap < b.gap; });
-  neighbours_.insert(place, neighbour);
+  const auto slot = std::upper_bound(neighbours_.begin(), neighbours_.end(), neighbour,
+                                     [](const Neighbour& a, const Neighbour& b) { return a.gap < b.gap; });
+  neighbours_.insert(slot, neighbour);
   if (neighbours_.size() > static_cast<std::size_t>(parameters_.max_neighbours)) neighbours_.pop_back();
 }
 
@@ -347,12 +348,10 @@ Trajectory OrcaPlanner::trajectory_for(const PlanRequest& request, const Eigen::
     if (ramp > kShortest) append_ramp(trajectory, position, present, reached, ramp);
   }
   const double speed = reached.norm();
-  if (ramp <= kShortest && speed < kStandingSpeed)
-    return Trajectory::standing(position, request.time, kStandingTime);
+  if (ramp <= kShortest && speed < kRestSpeed) return Trajectory::standing(position, request.time, kRestTime);
   if (parameters_.period - ramp > kShortest)
     append_ramp(trajectory, position, reached, reached, parameters_.period - ramp);
-  if (speed > kStandingSpeed)
-    append_ramp(trajectory, position, reached, Eigen::Vector2d::Zero(), speed / limit);
+  if (speed > kRestSpeed) append_ramp(trajectory, position, reached, Eigen::Vector2d::Zero(), speed / limit);
   return trajectory;
 }
 

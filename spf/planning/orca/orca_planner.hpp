@@ -1,8 +1,8 @@
-// The reactive yardstick: optimal reciprocal collision avoidance, written from its published description (van
+// The reactive baseline: optimal reciprocal collision avoidance, written from its published description (van
 // den Berg, Guy, Lin, Manocha, "Reciprocal n-body collision avoidance", ISRR 2009, Springer 2011; "the
 // publication" below). Everything near forbids a half-plane of velocities; the allowed velocity closest to
-// the wanted one is driven until the next plan. It knows present velocities only: no plans, no uncertainty.
-// docs/add_a_method.md shows it as the example of a method of one's own. Frame: world.
+// the preferred one is driven until the next plan. It uses present velocities only: no plans, no uncertainty.
+// docs/add_a_method.md shows it as an example of adding a method. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,36 +19,36 @@ namespace spf {
 struct HalfPlane {
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
   double offset = 0.0;  ///< [m/s]
-  /// By how much a velocity lies on the forbidden side [m/s]; not positive on the allowed one.
+  /// Distance of a velocity from the border on the forbidden side [m/s]; not positive on the allowed side.
   [[nodiscard]] double violation(const Eigen::Vector2d& velocity) const {
     return offset - normal.dot(velocity);
   }
 };
 
-/// Two discs, as one of them sees it.
+/// Two discs, from the point of view of one of them.
 struct Encounter {
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();          ///< [m] from the own centre to the other's
   Eigen::Vector2d own_velocity = Eigen::Vector2d::Zero();    ///< [m/s] present
   Eigen::Vector2d other_velocity = Eigen::Vector2d::Zero();  ///< [m/s] present
-  double reach = 0.0;                                        ///< [m] wanted least distance of the centres
-  double share = 1.0;  ///< [1] part of the change of velocity that is taken on: 1/2 when the other does the
+  double reach = 0.0;                                        ///< [m] least distance of the centres to keep
+  double share = 1.0;  ///< [1] part of the change of velocity to make: 1/2 when the other does the
                        ///< same, 1 when it will not react
 };
 
-/// The velocities that this encounter leaves (the publication's ORCA set). When both take theirs (with
-/// shares of 1/2), the distance stays above `reach` for `horizon` seconds. Discs that are too close already
-/// are to be apart after `period` seconds. Exact symmetry is resolved to the right; discs that coincide part
-/// along `way_out` (unit vector, opposite for the two).
+/// The velocities that this encounter allows (the publication's ORCA set). If both discs choose from theirs
+/// (with shares of 1/2), their distance stays above `reach` for `horizon` seconds. Discs that are too close
+/// already are separated within `period` seconds. Exact symmetry is resolved to the right; coinciding discs
+/// separate along `way_out` (unit vector, opposite for the two).
 [[nodiscard]] HalfPlane allowed_velocities(const Encounter& encounter, double horizon, double period,
                                            const Eigen::Vector2d& way_out);
 
-/// What was chosen, and whether it satisfies everything.
+/// The chosen velocity, and whether it satisfies all half-planes.
 struct VelocityChoice {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< [m/s]
-  bool feasible = false;  ///< false: the largest violation of the planes after the hard ones is the least
+  bool feasible = false;  ///< false: the largest violation of the soft planes is minimal
 };
 
-/// Chooses velocities by linear programmes; keeps its memory from call to call.
+/// Chooses velocities by linear programmes; keeps its memory between calls.
 class VelocityProgramme {
  public:
   explicit VelocityProgramme(std::size_t largest_count) { projected_.reserve(largest_count); }
@@ -73,14 +73,14 @@ class OrcaPlanner final : public Planner {
   OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot,
               const PlannerParameters& planner = {});
 
-  /// The trajectory goes at the chosen velocity for one period, then brakes to rest: a robot that gets no
-  /// further plan ends standing. Where nothing satisfies all, the least violation is driven, since the rule
-  /// has no better way out. It knows no uncertainty: the risk is 0 or, with a violation, 1. The cost of its
-  /// one candidate is the departure from the wanted velocity [m/s].
+  /// The trajectory holds the chosen velocity for one period, then brakes to rest: a robot that gets no
+  /// further plan stops. Where no velocity satisfies all half-planes, that of least violation is driven. The
+  /// method models no uncertainty: the risk is 0 or, with a violation, 1. The cost of its one candidate is
+  /// the departure from the preferred velocity [m/s].
   void plan(const PlanRequest& request, PlanResult& result) override;
 
  private:
-  /// Somebody who moves, or may.
+  /// A peer or a moving obstacle.
   struct Neighbour {
     Encounter encounter;
     double gap = 0.0;  // [m] between the surfaces

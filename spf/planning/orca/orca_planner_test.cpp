@@ -121,7 +121,7 @@ TEST(OrcaHalfPlane, HeadOnBothTurnRight) {
 
 class OrcaProgramme : public ::testing::Test {
  protected:
-  /// Half-planes of random number and place; `offset_low` near -1 leaves room, near 0 leaves none.
+  /// Half-planes of random number and offset; `offset_low` near -1 leaves room, near 0 leaves none.
   std::vector<HalfPlane> random_planes(double offset_low, double offset_high) {
     std::vector<HalfPlane> planes(static_cast<std::size_t>(random.uniform(1.0, 12.0)));
     for (HalfPlane& plane : planes) {
@@ -438,7 +438,7 @@ TEST_F(OrcaPlannerTest, CoincidentRobotsPartInOppositeDirections) {
 }
 
 TEST_F(OrcaPlannerTest, IsFiniteWhateverLiesUponTheRobot) {
-  map.add_box({-0.5, -0.5}, {0.5, 0.5});  // its start is inside, at the place of least slope
+  map.add_box({-0.5, -0.5}, {0.5, 0.5});  // its start is inside, at the point of least slope
   Robot robot_a = robot_at({0.0, 0.0}, {6.0, 0.0}, OrcaParameters{});
   for (int i = 0; i < 5; ++i) place_obstacle({0.0, 0.0}, {0.0, 0.0});
   place_obstacle({std::nan(""), 0.0}, {0.0, 0.0});
@@ -450,7 +450,7 @@ TEST_F(OrcaPlannerTest, IsFiniteWhateverLiesUponTheRobot) {
     const FlatState state = robot_a.committed.state(kPeriod * (k + 1));
     ASSERT_TRUE(state.position_world.allFinite() && state.velocity_world.allFinite()) << "step " << k;
   }
-  EXPECT_GT(map.distance(robot_a.committed.tail_position()), 0.0);  // it found its way out of the box
+  EXPECT_GT(map.distance(robot_a.committed.tail_position()), 0.0);  // it has left the box
 }
 
 TEST_F(OrcaPlannerTest, AnswersAnUnusableRequestWithSomethingUsable) {

@@ -22,8 +22,8 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostT
                               const RollOutSettings& settings) {
   const Eigen::Vector2d direction = guide.direction(position_world);
   const double distance = guide.cost_to_go(position_world);
-  // The velocity v that is reached at the end of a step: step * v and the way to stop from v,
-  // v^2 / (2 acceleration), together are the distance. And not beyond the goal within the step.
+  // The velocity v at the end of a step, from step * v + v^2 / (2 acceleration) = distance: the step and
+  // stopping from v end at the goal. It does not pass the goal within the step either.
   const double acceleration = settings.max_acceleration;
   const double stoppable =
       acceleration *
@@ -38,8 +38,8 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Cos
   result.position_world[0] = head.position_world;
   result.velocity_world[0] = head.velocity_world;
   const double change = settings.max_acceleration * settings.step;
-  // Far from the goal its direction hardly turns within the horizon: look it up once, follow it closely near
-  // the end.
+  // Far from the goal its direction hardly changes within the horizon: it is looked up every fifth step, near
+  // the goal at every step.
   const double near = 2.0 * settings.max_speed * settings.step * settings.steps;
   Eigen::Vector2d target = primitive.velocity_world;
   bool first = primitive.until > 0.0;

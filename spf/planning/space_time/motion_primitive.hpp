@@ -1,6 +1,6 @@
-// Motion primitives: what the robot could do in the next seconds, rolled out with velocities that move
-// straight in velocity space at the largest acceleration. They choose the way (side, speed, waiting) of the
-// space-time method. Frame: world.
+// Motion primitives: what the robot could do in the next seconds, rolled out with the velocity moving
+// straight towards its target at the largest acceleration. The space-time method chooses its motion (side,
+// speed, waiting) among them. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace spf {
 
-/// First a velocity is taken up and held until a time, then the robot goes for its goal, goes on, or brakes.
+/// The robot takes up a velocity and holds it until a time, then heads for the goal, holds on, or brakes.
 struct MotionPrimitive {
   enum class Then { goal, hold, brake };
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s] taken up first
@@ -36,8 +36,8 @@ struct RollOutSettings {
   int steps = 30;
 };
 
-/// The velocity that leads to the goal from here: along the guide at max_speed, slowing down so as to stop
-/// there.
+/// Velocity towards the goal from a position: along the guide at max_speed, slower where the robot has to
+/// stop at the goal.
 [[nodiscard]] Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
                                             const RollOutSettings& settings);
 
@@ -46,12 +46,12 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Cos
               const RollOutSettings& settings, RollOut& result);
 
 /// The roll-out as a trajectory; steps of equal acceleration become one piece. A last piece brakes to rest,
-/// so that a plan which is not renewed ends standing.
+/// so that a plan which is not renewed ends at rest.
 [[nodiscard]] Trajectory to_trajectory(const RollOut& roll_out, double start_time,
                                        const RollOutSettings& settings);
 
-/// Appends the braking to rest with which every plan ends, from the state in which the trajectory ends;
-/// nothing when that is at rest.
+/// Appends braking to rest, with which every plan ends, from the trajectory's end state; nothing when that is
+/// at rest.
 void append_braking(const FlatState& end, const RollOutSettings& settings, Trajectory& trajectory);
 
 }  // namespace spf

@@ -50,7 +50,7 @@ TEST_F(MotionPrimitiveTest, TrajectoryPassesThroughTheSteps) {
     const Trajectory trajectory = to_trajectory(result, 5.0, settings);
     for (int k = 0; k <= result.steps; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      // The last step itself may be the end of the trajectory, where it stands.
+      // The last step itself may be the end of the trajectory, where it is at rest.
       EXPECT_LT((trajectory.position(5.0 + 0.1 * k) - result.position_world[at]).norm(), kRounding);
     }
   }

@@ -15,7 +15,7 @@ double density(double z) {
   return kInverseSqrtTwoPi * std::exp(-0.5 * z * z);
 }
 
-/// A step of the table and the way from it to the next, for one instant.
+/// An instant between two steps of the table.
 struct Instant {
   std::size_t step = 0;
   double part = 0.0;        // [0, 1]
@@ -44,7 +44,7 @@ void add_agent(const SpaceTimeRisk::PredictedAgent& agent, const Instant& at, do
   const double chance = normal_tail(z);
   const double slope = -factor * density(z);  // dP / dz
   penalty.integrand += factor * chance;
-  // At the very centre there is no way out that is better than another.
+  // At the very centre all directions outwards are equally good.
   const Eigen::Vector2d away =
       distance > 1e-9 ? Eigen::Vector2d{offset / distance} : Eigen::Vector2d{Eigen::Vector2d::Zero()};
   penalty.wrt_position += (slope / sigma) * away;
@@ -66,7 +66,7 @@ void SpaceTimeCost::operator()(NodeSet& nodes) const {
     const double clearance = map->distance(node.position) - wanted_clearance;
     const double z = clearance / static_sigma;
     if (z > kFarSigmas) continue;
-    // Inside the margin the cost goes on growing, so that the way out is always downhill.
+    // Inside the margin the cost keeps growing, so that it always falls outwards.
     const double depth = std::max(0.0, -clearance) / wanted_clearance;
     penalty.integrand += rate * (normal_tail(z) + depth);
     const double slope = -density(z) / static_sigma - (clearance < 0.0 ? 1.0 / wanted_clearance : 0.0);

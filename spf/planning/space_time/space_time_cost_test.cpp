@@ -1,4 +1,4 @@
-// Gradients of the space-time cost against central differences: at one node in place and time, and through
+// Gradients of the space-time cost against central differences: at one node in position and time, and through
 // the whole optimisation, where moving a duration moves every later node in time.
 #include "spf/planning/space_time/space_time_cost.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStart = 3.0;  // [s]
 
-/// Obstacles and a peer about the way from the origin along x, over a map with a box.
+/// Obstacles and a peer around the path from the origin along x, over a map with a box.
 struct SpaceTimeScene {
   explicit SpaceTimeScene(std::uint64_t seed)
       : map{GridFrame::covering({-5.0, -8.0}, {15.0, 8.0}, 0.1), 2.0} {
@@ -65,7 +65,7 @@ struct SpaceTimeScene {
   SpaceTimeCost cost;
 };
 
-/// One node somewhere at some time: a standing trajectory whose first node is the one that is asked.
+/// One node at a given position and time: the first node of a trajectory at rest.
 class OneNode {
  public:
   NodePenalty ask(const SpaceTimeCost& cost, const Eigen::Vector2d& place, double time) {
@@ -111,7 +111,7 @@ TEST(SpaceTimeCost, NodeGradientInPlaceAndTime) {
         << "place " << place.transpose() << " time " << time;
     felt += at.wrt_position.norm() > 1.0 && std::abs(at.wrt_time) > 1.0 ? 1 : 0;
   }
-  EXPECT_GT(felt, 500);  // most of these places are somebody's
+  EXPECT_GT(felt, 500);  // most of these points are near an agent
 }
 
 TEST(SpaceTimeCost, IsThePriceOfTheChanceThatTheRiskTells) {

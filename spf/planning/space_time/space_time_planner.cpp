@@ -13,7 +13,7 @@ constexpr double kSlowFraction = 0.5;  // [1] of max_speed: the second speed of 
 constexpr double kEarlyProgress =
     0.3;  // [1] weight of the way to go at instants before the horizon: no putting off
 constexpr int kProgressSamples = 3;
-constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter ways are not smoothed
+constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter motions are not smoothed
 
 RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
   return {robot.max_speed, robot.max_acceleration, parameters.step, steps};
@@ -37,13 +37,13 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   Score score;
   const auto end = static_cast<std::size_t>(roll_out.steps);
   const Eigen::Vector2d& tail = roll_out.position_world[end];
-  // Travel time: what has passed, the way left at full speed, and half the change of velocity that is still
-  // needed.
+  // Travel time: the horizon, the remaining path at full speed, and half the time for the remaining change of
+  // velocity.
   const Eigen::Vector2d wanted = goal_velocity(tail, guide, settings_);
   score.time = settings_.step * roll_out.steps + guide.cost_to_go(tail) / settings_.max_speed +
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
-  // Progress now is better than the same progress promised for later, which would be promised again and
-  // again: a part of the way still to go counts at some instants in between, too.
+  // Early progress is better than the same progress planned for later, which could be postponed again and
+  // again: a part of the remaining path counts at some instants in between, too.
   double between = 0.0;
   for (int i = 1; i <= kProgressSamples; ++i) {
     const auto at = static_cast<std::size_t>(i * roll_out.steps / (kProgressSamples + 1));
@@ -52,8 +52,8 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   score.time += kEarlyProgress * between / (kProgressSamples * settings_.max_speed);
   if (score.time > enough) return score;
 
-  // Static surfaces: the chance that the own position error reaches one. It is not discounted: a wall will
-  // still be there, and a risk that fades would be put off for ever.
+  // Static surfaces: the probability that the own position error reaches one. It is not discounted: a wall
+  // will still be there, and a discounted risk would be put off for ever.
   const OccupancyMap& map = *request.world.map;
   const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
   const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
@@ -61,13 +61,13 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   for (int k = 1; k <= roll_out.steps; ++k) {
     least = std::min(least, map.distance(roll_out.position_world[static_cast<std::size_t>(k)]));
   }
-  // The way must not end where it could not stop, or a blocked robot would take run after run at what blocks
-  // it.
+  // The motion must end where the robot can still stop; otherwise a blocked robot would run at the obstacle
+  // again and again.
   const Eigen::Vector2d& velocity = roll_out.velocity_world[end];
   const Eigen::Vector2d stop = tail + velocity * (velocity.norm() / (2.0 * settings_.max_acceleration));
   least = std::min({least, map.distance(0.5 * (tail + stop)), map.distance(stop)});
   const double clearance = least - wanted_clearance;
-  // Deeper is worse without end, so that a robot inside the margin is led out of it.
+  // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
   const double depth = std::max(0.0, -clearance) / wanted_clearance;
   const double static_chance = clearance > 4.0 * softness ? 0.0 : normal_tail(clearance / softness) + depth;
   const double left = (enough - score.time) / std::max(parameters_.collision_cost, 1e-9) - static_chance;
@@ -142,7 +142,7 @@ void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult
   }
 }
 
-/// What shapes the plan is named, then every other way is weighed.
+/// Names the agent that shapes the plan most, then tries all other primitives.
 void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& direct, PlanResult& result) {
   if (direct.worst >= 0) {
     const SpaceTimeRisk::PredictedAgent& agent = risk_.agent(direct.worst);
@@ -159,7 +159,7 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
 void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.clear();
   if (!usable(request) || !request.guide->ready()) {
-    const bool no_goal = usable(request);  // the guide found no free place near it
+    const bool no_goal = usable(request);  // no free position near the goal
     stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
     return;
   }
@@ -168,17 +168,17 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   best_is_previous_ = false;
   best_candidate_ = -1;
 
-  // 1. Where everything that moves is believed to be over the horizon.
+  // 1. Predictions of obstacles and peers over the horizon.
   risk_.prepare(request);
-  // 2. The plan under way and the direct way; enough when the direct way is free.
+  // 2. The current plan and the direct primitive; these suffice when the direct one is free.
   consider_previous(request, result);
   const MotionPrimitive direct{Eigen::Vector2d::Zero(), 0.0, MotionPrimitive::Then::goal};
   roll_out(direct, request.head, *request.guide, settings_, trial_);
   const Score direct_score = score(trial_, request, std::numeric_limits<double>::infinity());
   consider(direct, request, result);
-  // 3. Else all ways there are.
+  // 3. Else all primitives.
   if (direct_score.risk > parameters_.cost_threshold) consider_all(request, direct_score, result);
-  // 4. The best of them, made smooth, is the plan.
+  // 4. The best of them, smoothed, is the plan.
   finish(request, result);
 }
 
@@ -191,7 +191,8 @@ int SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind ki
 }
 
 bool SpaceTimePlanner::smooth_best(const PlanRequest& request, PlanResult& result) {
-  // Standing is smooth as it is; optimised, it would lean away from the risk and back again.
+  if (!parameters_.smoothing) return false;
+  // Standing still is not smoothed: the optimiser would move away from the risk and back again.
   const Eigen::Vector2d& tail = best_.position_world[static_cast<std::size_t>(best_.steps)];
   if ((tail - best_.position_world[0]).norm() < kLeastSmoothed * robot_.max_speed) return false;
   if (!smoother_.smooth(best_, request, risk_, settings_, smooth_, result.stats)) return false;

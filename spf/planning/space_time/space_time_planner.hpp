@@ -1,6 +1,7 @@
-// The space-time method (ours, docs/space_time.md): a hundred motion primitives rolled out against the
-// growing belief about everything that moves choose the way, the optimiser makes it smooth. Costs are seconds
-// of travel; a chance of contact costs SpaceTimeParameters::collision_cost of them.
+// The space-time method (ours, docs/space_time.md): chooses the best of a hundred motion primitives, rolled
+// out against the predicted obstacles and peers with their growing uncertainty, and smooths it with the
+// optimiser. Costs are in seconds of travel; a certain contact costs SpaceTimeParameters::collision_cost of
+// them.
 #pragma once
 
 #include "spf/planning/plan_judge.hpp"
@@ -14,22 +15,22 @@ namespace spf {
 
 class SpaceTimePlanner final : public Planner {
  public:
-  /// Throws std::invalid_argument when parameters are out of range. Plans allocate only when more comes near
-  /// than ever before. `planner` holds the optimiser's settings and weights.
+  /// Throws std::invalid_argument when parameters are out of range. Plans allocate only when more obstacles
+  /// and peers come near than ever before. `planner` holds the optimiser's settings and weights.
   SpaceTimePlanner(const SpaceTimeParameters& parameters, const PlannerParameters& planner,
                    const RobotParameters& robot);
 
-  /// A plan under way that is still the best is kept. The risk is discounted by time and weighted, as it
-  /// counts in the choice. The outcome is what the clearance check says of the choice (PlanJudge), which is
-  /// driven all the same: where nothing is clear, it is the least risk there is.
+  /// The current plan is kept while it is the best. The risk in the result is discounted and weighted as in
+  /// the choice. The outcome is that of the clearance check (PlanJudge); a choice that fails it is driven all
+  /// the same, as the one with the least cost.
   void plan(const PlanRequest& request, PlanResult& result) override;
 
  private:
   /// Cost of a roll-out in seconds, split for the record.
   struct Score {
     double time = 0.0;    ///< [s] travel time to the goal along it
-    double risk = 0.0;    ///< [s] price of the chance of contact
-    double chance = 0.0;  ///< [1] that chance; more than 1 where several add up
+    double risk = 0.0;    ///< [s] cost of the probability of contact
+    double chance = 0.0;  ///< [1] that probability; a sum, which may exceed 1
     int worst = -1;       ///< agent that contributes most, -1 = none
     [[nodiscard]] double total() const { return time + risk; }
   };

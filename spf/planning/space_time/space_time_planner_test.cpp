@@ -57,7 +57,7 @@ class SpaceTimePlannerTest : public ::testing::Test {
     peer.trajectory = course;
     peers.push_back(peer);
   }
-  /// Drives the plans, one every 0.1 s, while everything moves on as told; the least gap between surfaces
+  /// Drives the plans, one every 0.1 s, while all obstacles move as predicted; the least gap between surfaces
   /// [m].
   double drive(double seconds) {
     double least = std::numeric_limits<double>::infinity();
@@ -149,7 +149,7 @@ TEST_F(SpaceTimePlannerTest, LeadsOutOfAMarginAndAnObstacle) {
 }
 
 TEST_F(SpaceTimePlannerTest, SaysSoWhenNothingIsSafe) {
-  // Eight discs close in on a robot that stands: whatever it does, it meets one.
+  // Eight discs close in on a robot at rest: whatever it does, it meets one.
   for (int k = 0; k < 8; ++k) {
     const double angle = 0.25 * kPi * k;
     const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};

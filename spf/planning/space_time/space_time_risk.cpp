@@ -9,8 +9,9 @@
 namespace spf {
 namespace {
 
-constexpr double kStandingPeerGrowth = 0.25;  // [1] of the growth of a peer's uncertainty, while it stands
-constexpr double kNegligibleSigmas = 4.0;     // Phi(-4) = 3e-5: a 1000 s contact then costs 0.03 s at most
+constexpr double kStoppedPeerGrowth = 0.25;  // [1] of the growth of a peer's uncertainty, while it is stopped
+constexpr double kNegligibleSigmas =
+    4.0;  // Phi(-4) = 3e-5: a contact of cost 1000 s then counts 0.03 s at most
 
 }  // namespace
 
@@ -82,7 +83,7 @@ void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& t
   PredictedAgent& agent = *next_agent();
   agent.id = track.id;
   agent.is_peer = false;
-  agent.stands = false;
+  agent.stopped = false;
   agent.priority_weight = 1.0;
   agent.radius = robot_radius_ + track.state.radius + parameters_.margin;
   for (int k = 0; k <= steps_; ++k) {
@@ -97,15 +98,15 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   PredictedAgent& agent = *next_agent();
   agent.id = peer.robot_id;
   agent.is_peer = true;
-  // A peer that stands cannot be asked to yield; a moving one that comes after us will.
+  // A stopped peer cannot be asked to yield; a moving one of lower priority will.
   const bool yields =
       goes_first(request.world.rank(), peer.rank()) && peer.state == PeerState::moving && !peer.expired;
   agent.priority_weight = yields ? kLowerPriorityWeight : 1.0;
   agent.radius = robot_radius_ + peer.radius + peer.growth + parameters_.peer_margin;
-  // One that stands moves off only when it has to dodge or to go on.
-  const bool stands = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
-  agent.stands = stands && !peer.expired;
-  const double growth = parameters_.peer_sigma_growth * (stands ? kStandingPeerGrowth : 1.0);
+  // A stopped peer starts moving only to dodge or to go on.
+  const bool stopped = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
+  agent.stopped = stopped && !peer.expired;
+  const double growth = parameters_.peer_sigma_growth * (stopped ? kStoppedPeerGrowth : 1.0);
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double ahead = k * parameters_.step;
@@ -142,7 +143,7 @@ double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& po
   for (int i = 0; i < agent_count_; ++i) {
     const PredictedAgent& agent = agents_[static_cast<std::size_t>(i)];
     double peak = chance(agent, steps, stop_world);
-    if (agent.stands) peak /= peer_discount_[static_cast<std::size_t>(steps)];
+    if (agent.stopped) peak /= peer_discount_[static_cast<std::size_t>(steps)];
     for (int k = 1; k <= steps; ++k) {
       if (agent.weight[static_cast<std::size_t>(k)] <= peak) continue;  // cannot exceed the peak
       peak = std::max(peak, chance(agent, k, positions[static_cast<std::size_t>(k)]));

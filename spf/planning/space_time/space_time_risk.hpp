@@ -1,6 +1,6 @@
-// Space-time field: the chance that the robot, somewhere at some time, overlaps a moving obstacle or a peer,
-// whose belief (mean and spread) moves and grows with time. Our extension of eq. 1-4 (docs/space_time.md).
-// Frame: world.
+// Space-time field: the probability that the robot, at a position and a time, overlaps a moving obstacle or a
+// peer, whose mean moves and whose uncertainty grows with time. Our extension of eq. 1-4
+// (docs/space_time.md). Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,11 +13,11 @@
 
 namespace spf {
 
-/// Chance that a Gaussian of standard deviation sigma at distance d is within R:
-/// Phi((R - d) / sigma) erf(R / (sigma sqrt 2)). It falls again when sigma is large against R.
+/// Probability that a Gaussian of standard deviation sigma at distance d is within R: Phi((R - d) / sigma)
+/// erf(R / (sigma sqrt 2)). It falls again when sigma is large compared with R.
 [[nodiscard]] double overlap_probability(double distance, double radius, double sigma);
 
-/// The moving surroundings of one planning call, tabulated over the horizon.
+/// Obstacles and peers of one planning call, tabulated over the horizon.
 class SpaceTimeRisk {
  public:
   static constexpr int kMaxSteps = 30;
@@ -25,24 +25,24 @@ class SpaceTimeRisk {
   static constexpr double kLowerPriorityWeight =
       0.3;  ///< [1] of the risk with peers that yield to this robot
 
-  /// One obstacle or peer: where it is believed to be at each step.
+  /// One obstacle or peer: its predicted position at each step.
   struct PredictedAgent {
     int id = -1;
     bool is_peer = false;
-    bool stands =
-        false;  ///< a peer that stands will still be there at the end: the risk of the end is not discounted
+    bool stopped =
+        false;  ///< a stopped peer will still be there at the end: the risk of the end is not discounted
     double priority_weight = 1.0;                           ///< [1]
     double radius = 0.0;                                    ///< [m] both radii and the margin
     std::array<Eigen::Vector2d, kMaxSteps + 1> mean_world;  ///< [m]
     std::array<double, kMaxSteps + 1> sigma;                ///< [m]
     std::array<double, kMaxSteps + 1> weight;               ///< erf(R / (sigma sqrt 2)) * discount * weight
-    std::array<double, kMaxSteps + 1> reach;                ///< [m] beyond this distance the chance is nil
+    std::array<double, kMaxSteps + 1> reach;  ///< [m] beyond this distance the probability is negligible
   };
 
   SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed);
 
   /// Tabulates every obstacle and peer that can come near within the horizon (the nearest kMaxAgents of
-  /// them). Allocates only when they are more than ever before.
+  /// them). Allocates only when there are more of them than ever before.
   void prepare(const PlanRequest& request);
 
   [[nodiscard]] int steps() const { return steps_; }
@@ -52,13 +52,13 @@ class SpaceTimeRisk {
     return agents_[static_cast<std::size_t>(index)];
   }
 
-  /// Discounted and weighted chance of contact at one step with one agent, in [0, 1].
+  /// Discounted and weighted probability of contact at one step with one agent, in [0, 1].
   [[nodiscard]] double chance(const PredictedAgent& agent, int step,
                               const Eigen::Vector2d& position_world) const;
 
-  /// Sum over agents of the largest discounted chance along positions[1..steps], and at the place where the
-  /// robot would stand if it braked from there, at the last step's time; stops counting once the sum exceeds
-  /// `enough`. `worst` receives the index of the agent that contributes most, -1 for none.
+  /// Sum over agents of the largest discounted probability along positions[1..steps] and at stop_world, where
+  /// the robot would come to rest if it braked at the end, at the last step's time; returns early once the
+  /// sum exceeds `enough`. `worst` receives the index of the agent that contributes most, -1 for none.
   [[nodiscard]] double along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
                              const Eigen::Vector2d& stop_world, double enough, int* worst = nullptr) const;
 
@@ -74,7 +74,8 @@ class SpaceTimeRisk {
   int steps_;
   std::array<double, kMaxSteps + 1> discount_;
   std::array<double, kMaxSteps + 1> peer_discount_;
-  std::vector<PredictedAgent> agents_;  // the first agent_count_ count; kept for their memory of 1.3 KB each
+  std::vector<PredictedAgent>
+      agents_;  // the first agent_count_ are valid; kept for their memory of 1.3 KB each
   std::vector<std::pair<double, int>> order_;
   int agent_count_ = 0;
 };

@@ -11,7 +11,7 @@
 namespace spf {
 namespace {
 
-/// A request in an empty place with the given obstacles and peers around a robot at the origin.
+/// A request on an empty map with the given obstacles and peers around a robot at the origin.
 struct RiskScene {
   RiskScene()
       : map{GridFrame::covering(Eigen::Vector2d::Constant(-10.0), Eigen::Vector2d::Constant(10.0), 0.2),
@@ -97,8 +97,7 @@ TEST(SpaceTimeRisk, KeepsTheNearestWhenThereAreTooMany) {
   for (int i = 0; i < risk.agent_count(); ++i) EXPECT_GE(risk.agent(i).id, 200 - SpaceTimeRisk::kMaxAgents);
 }
 
-// An obstacle that crosses x = 2 at t = 1: standing there then is dangerous, standing where it has been is
-// not.
+// An obstacle that crosses x = 2 at t = 1: resting there then is dangerous, resting where it has been is not.
 TEST(SpaceTimeRisk, KnowsWhenAnObstacleIsWhere) {
   RiskScene scene;
   scene.tracks.push_back(track_at(0, {2.0, -1.0}, {0.0, 1.0}));

@@ -1,6 +1,5 @@
-// Makes a chosen way smooth: the roll-out of a primitive becomes a minimum-jerk trajectory (MINCO under
-// L-BFGS) that pays for jerk, time, limits and the space-time field. The way itself (side, speed, waiting)
-// stays as chosen. Frame: world.
+// Smooths the roll-out of a chosen primitive to a minimum-jerk trajectory (MINCO under L-BFGS) with costs for
+// jerk, time, limits and the space-time field. Side, speed and waiting stay as chosen. Frame: world.
 #pragma once
 
 #include "spf/planning/planner.hpp"
@@ -16,9 +15,9 @@ class TrajectorySmoother {
   TrajectorySmoother(const SpaceTimeParameters& space_time, const PlannerParameters& planner,
                      const RobotParameters& robot);
 
-  /// Optimises from the roll-out, with the request's head (its acceleration goes on, too) and the roll-out's
-  /// end as ends. False when the optimiser failed or the result breaks the limits by more than their
-  /// tolerance; `smooth` is then unusable. It ends braking to rest, as to_trajectory().
+  /// Optimises from the roll-out, between the request's head (continuing its acceleration, too) and the
+  /// roll-out's end. False when the optimiser failed or the result breaks the limits by more than their
+  /// tolerance; `smooth` is then unusable. It ends by braking to rest, as to_trajectory() does.
   bool smooth(const RollOut& roll_out, const PlanRequest& request, const SpaceTimeRisk& risk,
               const RollOutSettings& settings, Trajectory& smooth, PlanStats& stats);
 

@@ -21,7 +21,7 @@ struct MpcInstance {
 struct MpcInstanceOptions {
   int horizon = 5;
   double position_error = 0.3;   ///< [m] radius of the disc around the reference
-  double heading_error = 0.2;    ///< [rad] both ways
+  double heading_error = 0.2;    ///< [rad] to either side
   double wall_share = 0.2;       ///< share of the instances with a wall
   double wall_ahead_low = 0.02;  ///< [m] the wall's distance ahead of the robot; negative = passed already
   double wall_ahead_high = 0.2;
