@@ -272,7 +272,7 @@ void describe_outcome(ReplayData& data, const TrialRecord& record) {
   data.success = record.succeeded();
   int arrived = 0;
   for (const RobotRecord& robot : record.robots) arrived += robot.arrived ? 1 : 0;
-  data.summary = {{"robots home", std::to_string(arrived) + " of " + std::to_string(record.robots.size())},
+  data.summary = {{"robots at goal", std::to_string(arrived) + " of " + std::to_string(record.robots.size())},
                   {"simulated", fixed(record.sim_time, 1) + " s"},
                   {"nearest moving obstacle", fixed(record.dynamic_clearance, 2) + " m clear"},
                   {"planning, median", fixed(1e3 * record.plan_time.percentile(0.5), 3) + " ms"},

@@ -112,7 +112,7 @@ struct ContactRecord {
 
 /// What a robot was about when its trial failed.
 struct CauseRecord {
-  int robot = -1;            ///< that touched something, or the first that is not home
+  int robot = -1;            ///< that touched something, or the first that has not arrived
   std::string last_plan;     ///< outcome of its last planning call, empty when there was none
   double plan_age = 0.0;     ///< [s] since that call
   std::string stand_reason;  ///< moving, obstacle ahead, ...

@@ -206,7 +206,7 @@ void SimulatorNode::note_end() {
   const spf_empc_msgs::TrialOutcome message = outcome_message(*end_, true, stamp());
   outcome_.publish(message);
   publish_pictures();
-  ROS_INFO("trial %d: %s after %.2f s, %u of %u robots home%s%s", config_.scenario.trial,
+  ROS_INFO("trial %d: %s after %.2f s, %u of %u robots at goal%s%s", config_.scenario.trial,
            to_string(end_->outcome), message.duration, message.arrived, message.robots,
            message.cause.empty() ? "" : ": ", message.cause.c_str());
   if (config_.quits_when_done) serve_until(wall_now() + 0.5);  // so that the last messages leave

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Two robots on two machines: two network namespaces joined by a cable (veth), which this test makes and removes.
 The first holds master, simulator and robot 0, the second robot 1, each started as docs/ros_tutorial.md says. Both must
-come home, must have heard each other over the cable, and robot 1 must survive that the cable is pulled for a while.
+reach their goals, must have heard each other over the cable, and robot 1 must survive that the cable is pulled for a while.
 Exit status 77 (skipped) where the kernel or the rights do not allow namespaces.
 """
 import json
@@ -145,7 +145,7 @@ def main():
         finally:
             for machine in reversed(machines):
                 machine.remove()
-    print("\n".join(problems) if problems else "both machines' robots came home")
+    print("\n".join(problems) if problems else "both machines' robots arrived")
     return 1 if problems else 0
 
 
