@@ -67,9 +67,7 @@ Verb add_parameters(CLI::App& program, const MethodTable& methods) {
       program.add_subcommand("parameters", "Print every parameter: default, unit, range, meaning");
   const auto options = std::make_shared<ParametersOptions>();
   options->methods = methods;
-  CLI::Option* markdown = app->add_flag("--markdown", options->markdown,
-                                        "as the page docs/parameters.md\n"
-                                        "  spf parameters --explain scenarios/t2.yaml");
+  CLI::Option* markdown = app->add_flag("--markdown", options->markdown, "as the page docs/parameters.md");
   CLI::Option* json = app->add_flag("--json", options->json, "as JSON lines")->excludes(markdown);
   app->add_option("--explain", options->explained, "this scenario, every key written out with its meaning")
       ->type_name("FILE")

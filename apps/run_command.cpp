@@ -1,4 +1,5 @@
 // spf run: simulates a scenario once, or over many trials.
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -36,6 +37,13 @@ std::string time_left(double elapsed, std::size_t done, int all) {
   return ", " + clock_text(elapsed / static_cast<double>(done) * (all - static_cast<int>(done))) + " left";
 }
 
+/// A run replaces the run before it in its folder, but never a campaign.
+const std::string& own_folder(const std::string& out) {
+  if (std::filesystem::exists(std::filesystem::path{out} / "campaign.yaml"))
+    throw InputError{{"--out", 0, 0}, out + " holds the results of a campaign, which a run would remove"};
+  return out;
+}
+
 /// One call of `spf run`: a campaign of one cell.
 class Run {
  public:
@@ -47,7 +55,7 @@ class Run {
     if (options_.out.empty())
       store_.emplace(plan_);
     else
-      store_.emplace(plan_, options_.out, EarlierResults::remove);
+      store_.emplace(plan_, own_folder(options_.out), EarlierResults::remove);
     catch_interrupts();
   }
 

@@ -130,6 +130,30 @@ TEST_P(Faults, AJumpIsAFaultUntilItPersistsThenARelocalisation) {
   EXPECT_LT(bench.pose.position_world.y(), before - 0.5);
 }
 
+// Under whatever cause it brakes: it is not pulled to where it was thought to be.
+TEST_P(Faults, ARelocalisationUnderWayBrakesOnTheSpot) {
+  for (const bool emergency : {false, true}) {
+    for (const double delay : {0.0, 0.2, 0.4}) {
+      Bench bench{GetParam()};
+      bench.drive();
+      if (emergency) bench.set_switches({true, false});
+      bench.run(delay);
+      bench.distort = [](const Pose2& truth) {
+        return Pose2{truth.position_world + Eigen::Vector2d{0.5, 2.0}, truth.heading};
+      };
+      const Eigen::Vector2d from = bench.pose.position_world;
+      for (int i = 0; i < 180; ++i) {
+        bench.tick();
+        ASSERT_LE(bench.speed(), 1.1) << emergency << ", " << delay << ", " << i;
+      }
+      EXPECT_LE(std::abs(bench.pose.position_world.y() - from.y()), 0.15) << emergency << ", " << delay;
+      if (emergency) {
+        EXPECT_LT(bench.speed(), kStanding) << delay;
+      }
+    }
+  }
+}
+
 TEST_P(Faults, AJumpThatPassesLeavesNoTrace) {
   Bench bench{GetParam()};
   bench.drive();

@@ -27,9 +27,9 @@ PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
 }
 
 void Localiser::applied(double time, const Eigen::Vector3d& wheel_speeds) {
-  if (!std::isfinite(time)) return;
+  if (!std::isfinite(time) || time < command_time_) return;
   estimator_.apply(time, wheel_speeds);
-  command_time_ = std::max(command_time_, time);
+  command_time_ = time;
   standing_ = false;
 }
 
@@ -46,7 +46,9 @@ void Localiser::meet_clock_jump(double now) {
   gate_.reset();
   estimator_.reset();
   if (before.estimate.valid) estimator_.observe(now, before.estimate.pose_world);
-  estimator_.apply(now, before.command);
+  // After a long pause (the process was suspended) a base that was told nothing has stopped by itself.
+  standing_ = standing_ || now - command_time_ > command_silence_;
+  estimator_.apply(now, standing_ ? Eigen::Vector3d{Eigen::Vector3d::Zero()} : before.command);
   command_time_ = now;
 }
 

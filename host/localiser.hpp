@@ -24,12 +24,14 @@ class Localiser {
   /// Enters a pose that is believed. After a jump that persisted nothing older counts.
   PoseVerdict add_pose(const PoseMeasurement& pose, double now);
   /// Rim speeds [m/s] that the motors are told from a time on, held until the next: those that were really
-  /// applied. Those that are not finite count as none.
+  /// applied. Those that are not finite count as none. What is older than the last is ignored; the caller
+  /// sees to it that nothing lies ahead of the present, where it would carry the estimate.
   void applied(double time, const Eigen::Vector3d& wheel_speeds);
   /// Without a word of what is applied for HostParameters::command_silence the wheels are taken to stand, as
   /// bases do that are told nothing.
   void advance_to(double now);
-  /// Nothing known can be dated any more; but the robot is where it was, and moves as it was told.
+  /// Nothing known can be dated any more; but the robot is where it was, and moves as it was told, unless the
+  /// clock leapt ahead by more than a base waits for commands.
   void meet_clock_jump(double now);
   /// The host could not even read a pose.
   void count_refused_pose() { ++poses_refused_; }

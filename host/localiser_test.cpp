@@ -103,13 +103,31 @@ TEST_F(LocaliserTest, BeginsAnewWhereAJumpPersistsAndStillKnowsItsCommand) {
   EXPECT_EQ(localiser.state().command, forward(0.3));
 }
 
-TEST_F(LocaliserTest, KeepsItsPlaceAndCommandOverAJumpOfTheClock) {
+TEST_F(LocaliserTest, KeepsItsPlaceAndCommandWhenTheClockGoesBack) {
+  drive(1.0, 0.8, 0.8);
+  const double back = now - 50.0;
+  localiser.meet_clock_jump(back);
+  EXPECT_FALSE(localiser.has_pose());
+  EXPECT_NEAR(x(back), 0.8, 0.01);
+  EXPECT_EQ(localiser.state().command, forward(0.8));
+  EXPECT_EQ(localiser.add_pose(at(back + 0.01, 0.81), back + 0.01), PoseVerdict::accepted);
+}
+
+// The process was suspended, say: the base was told nothing meanwhile, and has stopped.
+TEST_F(LocaliserTest, KeepsItsPlaceButNoCommandWhenTheClockLeapsAhead) {
   drive(1.0, 0.8, 0.8);
   localiser.meet_clock_jump(500.0);
-  EXPECT_FALSE(localiser.has_pose());
   EXPECT_NEAR(x(500.0), 0.8, 0.01);
-  EXPECT_EQ(localiser.state().command, forward(0.8));
+  EXPECT_TRUE(localiser.state().command.isZero());
   EXPECT_EQ(localiser.add_pose(at(500.01, 0.81), 500.01), PoseVerdict::accepted);
+}
+
+TEST_F(LocaliserTest, IgnoresCommandsThatComeLate) {
+  localiser.applied(1.0, forward(0.5));
+  localiser.applied(0.9, forward(0.1));
+  EXPECT_EQ(localiser.state().command, forward(0.5));
+  localiser.applied(1.0, forward(0.2));  // at the same time: what was really applied
+  EXPECT_EQ(localiser.state().command, forward(0.2));
 }
 
 TEST_F(LocaliserTest, AllocatesNothing) {

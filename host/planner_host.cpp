@@ -51,7 +51,8 @@ ObservationVerdict PlannerHost::judge(const SensedWorld& sensed, double now) con
   if (!std::isfinite(observation.time) || !sensible(observation.detections) ||
       (observation.scan && !sensible(*observation.scan)))
     return ObservationVerdict::malformed;
-  if (observation.time > now + host_.clock_error) return ObservationVerdict::future;
+  // What the agent would not take in must not pass for a look around.
+  if (observation.time > now + std::min(host_.clock_error, kClockError)) return ObservationVerdict::future;
   const bool newer = (observation.scan && observation.time > last_scan_time_) ||
                      (sensed.has_detections && observation.time > last_detections_time_);
   if (!newer || observation.time < now - agent_parameters_.team.stale_time - kTimeTolerance)
@@ -104,11 +105,11 @@ MessageVerdict PlannerHost::add_message(const HeardMessage& message, double now)
       ++counts_.messages_malformed;
       return MessageVerdict::malformed;
     }
-    witness_.hear(message, now);
   }
   // The agent's table judges the rest: order, age, clock.
-  if (agent_) agent_->hear(message, now);
-  return MessageVerdict::accepted;
+  const MessageVerdict verdict = agent_ ? agent_->hear(message, now) : MessageVerdict::accepted;
+  if (verdict == MessageVerdict::accepted && !host_.trusts_peers) witness_.hear(message, now);
+  return verdict;
 }
 
 bool PlannerHost::set_goal(const Goal& goal) {
@@ -171,6 +172,15 @@ void PlannerHost::start(const OccupancyMap& map, const Pose2& pose_world, double
   set_map(map);
   vouched_time_ = now;
   make_agent(pose_world, now);
+}
+
+void PlannerHost::restart_where_planned(double then, double now) {
+  if (!agent_) return meet_clock_jump();
+  const Trajectory& plan = agent_->committed();
+  const Pose2 here{plan.position(then), plan.heading().state(then).heading};
+  meet_clock_jump();
+  vouched_time_ = now;
+  make_agent(here, now);
 }
 
 void PlannerHost::make_agent(const Pose2& pose_world, double now) {

@@ -90,6 +90,8 @@ class PlannerHost {
   void count_refused_input() { ++counts_.inputs_refused; }
   /// Everything that was known is forgotten, but for goal and map.
   void meet_clock_jump();
+  /// Likewise, of a robot that is where its plan says: it starts afresh `now` where it was at `then` [s].
+  void restart_where_planned(double then, double now);
 
   /// Call at the rate of the poses; plans when one is due, or at once when something is missing.
   const PlannerOutput& step(double now, const Localiser* localiser);

@@ -16,11 +16,15 @@ RobotHost::RobotHost(int robot_id, const AgentParameters& agent, const HostParam
 double RobotHost::tell_time(double now) {
   if (clock_.jumped(now)) {
     localiser_.meet_clock_jump(clock_.now());
-    planner_.meet_clock_jump();
+    if (motion_ == Motion::as_planned)
+      planner_.restart_where_planned(last_time_, clock_.now());
+    else
+      planner_.meet_clock_jump();
     tracker_.meet_clock_jump();
     next_control_time_ = kNever;
   }
-  return clock_.now();
+  last_time_ = clock_.now();
+  return last_time_;
 }
 
 void RobotHost::start(const OccupancyMap& map, const Pose2& pose_world, double now) {

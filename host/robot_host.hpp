@@ -4,6 +4,8 @@
 // parts, split (split_host.hpp). One thread at a time. Frame: world (the fleet's); times are the host's [s].
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 
@@ -16,7 +18,8 @@ namespace spf::host {
 /// How the robot is moved.
 enum class Motion {
   by_wheels,   ///< by the wheel speeds that it commands; poses are measured
-  as_planned,  ///< exactly as it plans, by somebody else: it needs no poses, and its wheels are never asked
+  as_planned,  ///< exactly as it plans, by somebody else: it needs no poses, and its wheels are never asked.
+               ///< After a new map it is to be started again
 };
 
 /// After a step.
@@ -42,7 +45,9 @@ class RobotHost {
   void set_switches(const Switches& switches);
   /// Told when the base did not do what the last control tick commanded: a limit on the way to its motors, or
   /// a switch of its own. Rim speeds [m/s] from a time on.
-  void applied(double time, const Eigen::Vector3d& wheel_speeds) { localiser_.applied(time, wheel_speeds); }
+  void applied(double time, const Eigen::Vector3d& wheel_speeds) {
+    localiser_.applied(std::min(time, clock_.now()), wheel_speeds);
+  }
 
   /// Plans and controls where due. Call it at the rate of the poses or faster.
   RobotOutput step(double now);
@@ -57,8 +62,11 @@ class RobotHost {
   [[nodiscard]] const TrackerHost& tracker() const { return tracker_; }
   [[nodiscard]] const Localiser& localiser() const { return localiser_; }
   [[nodiscard]] std::uint32_t clock_jumps() const { return clock_.count(); }
-  /// Once it has started.
-  [[nodiscard]] const RobotAgent& agent() const { return *planner_.agent(); }
+  /// Requires that it has started (planner().agent() is null before, and while it starts afresh).
+  [[nodiscard]] const RobotAgent& agent() const {
+    assert(planner_.agent() != nullptr);
+    return *planner_.agent();
+  }
 
  private:
   double tell_time(double now);
@@ -73,6 +81,7 @@ class RobotHost {
   PlannerHost planner_;
   TrackerHost tracker_;
   double next_control_time_ = kNever;  // [s]
+  double last_time_ = kNever;          // [s] of the last call
 };
 
 }  // namespace spf::host

@@ -3,6 +3,7 @@
 // wheels the other way. Each serves one thread. Frame: world (the fleet's); times are the host's [s].
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "host/planner_host.hpp"
@@ -61,7 +62,9 @@ class TrackerProcess {
     return tracker_.add_plan(message, tell_time(now));
   }
   /// As RobotHost::applied.
-  void applied(double time, const Eigen::Vector3d& wheel_speeds) { localiser_.applied(time, wheel_speeds); }
+  void applied(double time, const Eigen::Vector3d& wheel_speeds) {
+    localiser_.applied(std::min(time, clock_.now()), wheel_speeds);
+  }
   const TrackerCommand& step(double now) { return tracker_.step(tell_time(now), localiser_); }
 
   [[nodiscard]] TrackerHost& tracker() { return tracker_; }

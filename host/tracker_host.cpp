@@ -40,7 +40,12 @@ TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostP
       watchdog_{host, agent.team.stale_time} {}
 
 void TrackerHost::note_pose(PoseVerdict verdict) {
-  if (verdict == PoseVerdict::relocalised) controller_.reset();
+  if (verdict != PoseVerdict::relocalised) return;
+  // It is somewhere else than it was thought to be: neither its plan nor a braking under way leads on from
+  // there. It brakes where it is, and waits for a plan that begins there.
+  controller_.reset();
+  has_plan_ = false;
+  braking_.reset();
 }
 
 PlanVerdict TrackerHost::add_plan(const TrajectoryMessage& message, double now) {
@@ -114,17 +119,19 @@ void TrackerHost::follow(double now, const MotionState& state) {
   command_.reference_pose = output.reference_pose;
 }
 
-/// Along a braking trajectory from where the robot is, as fast as it was told to go; then no motion at all,
-/// since what the observer believes about slip is not to move a robot that stands.
+/// Along a braking trajectory from where the robot is, as fast as it was told to go (and from there anew,
+/// should it turn out to be somewhere else); then no motion at all, since what the observer believes about
+/// slip is not to move a robot that stands.
 void TrackerHost::brake(double now, const MotionState& state) {
+  const Eigen::Vector2d& here = command_.estimate.pose_world.position_world;
+  if (braking_ && watchdog_.far((here - braking_->position(now)).norm())) braking_.reset();
   if (!braking_) {
     const double heading = command_.estimate.pose_world.heading;
-    const Eigen::Vector3d twist = kinematics_.twist_world(command_.wheel_speeds, heading);
-    const FlatState head{command_.estimate.pose_world.position_world, twist.head<2>(),
-                         Eigen::Vector2d::Zero()};
+    const Eigen::Vector3d twist = kinematics_.twist_world(state.command, heading);
+    const FlatState head{here, twist.head<2>(), Eigen::Vector2d::Zero()};
     braking_ = braking_trajectory(head, {heading, twist.z()}, now, robot_);
   }
-  const bool moving = command_.estimate.valid && !command_.wheel_speeds.isZero() &&
+  const bool moving = command_.estimate.valid && !state.command.isZero() &&
                       now < std::max(braking_->end_time(),
                                      braking_->heading().start_time() + braking_->heading().turn_duration());
   const TrackerOutput& output = moving ? controller_.step(now, state, *braking_) : controller_.stop();

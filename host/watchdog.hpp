@@ -37,6 +37,8 @@ class Watchdog {
 
   /// The gravest cause to stop; `none` when all is well.
   [[nodiscard]] StopCause watch(const WatchFacts& facts) const;
+  /// Whether the robot is too far from what it follows [m] to be led back. NaN is far.
+  [[nodiscard]] bool far(double error) const { return !(error <= largest_plan_error_); }
 
  private:
   double stale_time_;          // [s]

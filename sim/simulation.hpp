@@ -56,7 +56,7 @@ class Simulation {
 [[nodiscard]] AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent);
 
 /// What a robot's host reckons with in this scenario. Its guards are up, and as wide as the scenario's own
-/// noise of poses asks for: trials configuration noise that would be a fault elsewhere. Robots of a trial are
+/// noise of poses asks for: trials study noise that would be a fault elsewhere. Robots of a trial are
 /// honest, so peers are taken at their word, as the experiments assume; observations always say what moves
 /// around.
 [[nodiscard]] host::HostParameters host_parameters_for(const Scenario& scenario);

@@ -1,6 +1,6 @@
 // A user-defined method, complete in this file, and an spf program that offers it besides the built-in ones.
 //
-//   own_method run scenarios/swap.yaml --method straight_ahead
+//   own_method run examples/own_method/yard.yaml --method straight_ahead
 // "Straight ahead" follows the guide at a constant speed and stops for any obstacle. It is a poor method but
 // a good example: it does all that a planner must do in a few lines.
 #include <algorithm>

@@ -22,7 +22,7 @@ class Beliefs {
   /// `map` is the known static map (or an empty one of the right frame when the map is to be sensed).
   Beliefs(int robot_id, const AgentParameters& parameters, const OccupancyMap& map);
 
-  void hear(const HeardMessage& message, double now) { peer_table_.receive(message, now); }
+  MessageVerdict hear(const HeardMessage& message, double now) { return peer_table_.receive(message, now); }
   /// Whether an observation tells about the present: neither too old to rely on nor ahead of time.
   [[nodiscard]] bool timely(const Observation& observation, double now) const;
   /// Takes in a timely observation. Its scan enters the map where the robot's pose then is known.

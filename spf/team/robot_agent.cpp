@@ -130,8 +130,8 @@ void RobotAgent::set_distrusted(std::vector<int> robot_ids) {
   implementation_->beliefs.set_distrusted(std::move(robot_ids));
 }
 
-void RobotAgent::hear(const HeardMessage& message, double now) {
-  implementation_->beliefs.hear(message, now);
+MessageVerdict RobotAgent::hear(const HeardMessage& message, double now) {
+  return implementation_->beliefs.hear(message, now);
 }
 void RobotAgent::observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now) {
   Beliefs& beliefs = implementation_->beliefs;

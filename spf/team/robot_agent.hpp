@@ -42,7 +42,7 @@ class RobotAgent {
   void set_distrusted(std::vector<int> robot_ids);
 
   /// A message of a peer, heard now.
-  void hear(const HeardMessage& message, double now);
+  MessageVerdict hear(const HeardMessage& message, double now);
   /// What was seen, from where: without a pose its scan tells nothing. One that is too old to rely on, or
   /// ahead of time, is ignored.
   void observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now);

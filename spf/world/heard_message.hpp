@@ -9,8 +9,7 @@ namespace spf {
 /// The trajectory is checked once and held in memory once, whatever the number of receivers. Copying shares.
 class HeardMessage {
  public:
-  HeardMessage(
-      const TrajectoryMessage& message);  // NOLINT(google-explicit-constructor): used like the message
+  HeardMessage(const TrajectoryMessage& message);  // NOLINT(google-explicit-constructor): it is one
 
   [[nodiscard]] const TrajectoryMessage* operator->() const { return &*message_; }
   operator const TrajectoryMessage&() const {  // NOLINT(google-explicit-constructor): as above

@@ -1,4 +1,4 @@
-// What a node is told when it starts: the private parameters robot_id, frame, configuration and map.
+// What a node is told when it starts: the private parameters robot_id, frame, config and map.
 #pragma once
 
 #include <ros/node_handle.h>
