@@ -12,9 +12,9 @@
 namespace spf::host {
 namespace {
 
-constexpr double kTick = 0.01;  // [s]
+constexpr double kPoseTick = 0.01;  // [s]
 
-PoseMeasurement at(double time, double x) {
+PoseMeasurement pose_at(double time, double x) {
   return {time, {{x, 0.0}, 0.0}};
 }
 
@@ -27,9 +27,9 @@ class LocaliserTest : public ::testing::Test {
  protected:
   /// Drives along x with this speed from 0 s on, and tells that another was applied.
   void drive(double seconds, double speed, double applied) {
-    for (int i = 0; i <= std::lround(seconds / kTick); ++i) {
-      now = kTick * i;
-      ASSERT_TRUE(believed(localiser.add_pose(at(now, speed * now), now)));
+    for (int i = 0; i <= std::lround(seconds / kPoseTick); ++i) {
+      now = kPoseTick * i;
+      ASSERT_TRUE(believed(localiser.add_pose(pose_at(now, speed * now), now)));
       if (i % 5 == 0) localiser.applied(now, forward(applied));
     }
   }
@@ -77,10 +77,10 @@ TEST_F(LocaliserTest, TakesWheelsForStandingOfWhichNothingIsHeard) {
 TEST_F(LocaliserTest, RefusesPosesByNameAndCountsThem) {
   drive(0.5, 0.0, 0.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(localiser.add_pose(at(now + kTick, nan), now + kTick), PoseVerdict::malformed);
-  EXPECT_EQ(localiser.add_pose(at(now + 1e6, 0.0), now + kTick), PoseVerdict::future);
-  EXPECT_EQ(localiser.add_pose(at(now, 0.0), now + kTick), PoseVerdict::late);
-  EXPECT_EQ(localiser.add_pose(at(now + kTick, 5.0), now + kTick), PoseVerdict::jump);
+  EXPECT_EQ(localiser.add_pose(pose_at(now + kPoseTick, nan), now + kPoseTick), PoseVerdict::malformed);
+  EXPECT_EQ(localiser.add_pose(pose_at(now + 1e6, 0.0), now + kPoseTick), PoseVerdict::future);
+  EXPECT_EQ(localiser.add_pose(pose_at(now, 0.0), now + kPoseTick), PoseVerdict::late);
+  EXPECT_EQ(localiser.add_pose(pose_at(now + kPoseTick, 5.0), now + kPoseTick), PoseVerdict::jump);
   EXPECT_EQ(localiser.poses_refused(), 4u);
   EXPECT_NEAR(x(now), 0.0, 1e-9);
   // Poses from the future do not hide that they fall silent.
@@ -93,12 +93,12 @@ TEST_F(LocaliserTest, BeginsAnewWhereAJumpPersistsAndStillKnowsItsCommand) {
   PoseVerdict verdict = PoseVerdict::jump;
   int ticks = 0;
   for (; verdict == PoseVerdict::jump && ticks < 100; ++ticks) {
-    now += kTick;
+    now += kPoseTick;
     localiser.applied(now, forward(0.3));
-    verdict = localiser.add_pose(at(now, 7.0), now);
+    verdict = localiser.add_pose(pose_at(now, 7.0), now);
   }
   EXPECT_EQ(verdict, PoseVerdict::relocalised);
-  EXPECT_NEAR(ticks * kTick, host.jump_persistence, 2.0 * kTick);
+  EXPECT_NEAR(ticks * kPoseTick, host.jump_persistence, 2.0 * kPoseTick);
   EXPECT_NEAR(x(now), 7.0, 1e-9);
   EXPECT_EQ(localiser.state().command, forward(0.3));
 }
@@ -110,7 +110,7 @@ TEST_F(LocaliserTest, KeepsItsPlaceAndCommandWhenTheClockGoesBack) {
   EXPECT_FALSE(localiser.has_pose());
   EXPECT_NEAR(x(back), 0.8, 0.01);
   EXPECT_EQ(localiser.state().command, forward(0.8));
-  EXPECT_EQ(localiser.add_pose(at(back + 0.01, 0.81), back + 0.01), PoseVerdict::accepted);
+  EXPECT_EQ(localiser.add_pose(pose_at(back + 0.01, 0.81), back + 0.01), PoseVerdict::accepted);
 }
 
 // The process was suspended, say: the base was told nothing meanwhile, and has stopped.
@@ -119,7 +119,7 @@ TEST_F(LocaliserTest, KeepsItsPlaceButNoCommandWhenTheClockLeapsAhead) {
   localiser.meet_clock_jump(500.0);
   EXPECT_NEAR(x(500.0), 0.8, 0.01);
   EXPECT_TRUE(localiser.state().command.isZero());
-  EXPECT_EQ(localiser.add_pose(at(500.01, 0.81), 500.01), PoseVerdict::accepted);
+  EXPECT_EQ(localiser.add_pose(pose_at(500.01, 0.81), 500.01), PoseVerdict::accepted);
 }
 
 TEST_F(LocaliserTest, IgnoresCommandsThatComeLate) {
@@ -133,8 +133,8 @@ TEST_F(LocaliserTest, IgnoresCommandsThatComeLate) {
 TEST_F(LocaliserTest, AllocatesNothing) {
   const AllocationGuard guard;
   for (int i = 0; i < 100; ++i) {
-    now += kTick;
-    localiser.add_pose(at(now, 0.5 * now), now);
+    now += kPoseTick;
+    localiser.add_pose(pose_at(now, 0.5 * now), now);
     localiser.applied(now, forward(0.5));
   }
   EXPECT_EQ(guard.allocations(), 0);

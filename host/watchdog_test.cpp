@@ -10,7 +10,7 @@
 namespace spf::host {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 struct Case {
   StopCause cause;
@@ -22,11 +22,11 @@ const std::vector<Case> kCases{
     {StopCause::emergency_stop, [](WatchFacts& facts) { facts.emergency_stop = true; }},
     {StopCause::paused, [](WatchFacts& facts) { facts.paused = true; }},
     {StopCause::clock_jump, [](WatchFacts& facts) { facts.clock_jumped = true; }},
-    {StopCause::no_pose, [](WatchFacts& facts) { facts.pose_age = kInfinity; }},
+    {StopCause::no_pose, [](WatchFacts& facts) { facts.pose_age = kEndless; }},
     {StopCause::stale_pose, [](WatchFacts& facts) { facts.pose_age = 0.31; }},
     {StopCause::no_scan, [](WatchFacts& facts) { facts.scan_age = 0.31; }},
-    {StopCause::no_obstacles, [](WatchFacts& facts) { facts.obstacles_age = kInfinity; }},
-    {StopCause::no_plan, [](WatchFacts& facts) { facts.plan_age = kInfinity; }},
+    {StopCause::no_obstacles, [](WatchFacts& facts) { facts.obstacles_age = kEndless; }},
+    {StopCause::no_plan, [](WatchFacts& facts) { facts.plan_age = kEndless; }},
     {StopCause::stale_plan, [](WatchFacts& facts) { facts.plan_age = 0.51; }},
     {StopCause::far_from_plan, [](WatchFacts& facts) { facts.plan_error = 0.61; }},
     {StopCause::control_failed, [](WatchFacts& facts) { facts.controller_failed = true; }},

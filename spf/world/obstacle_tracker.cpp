@@ -8,7 +8,7 @@
 namespace spf {
 namespace {
 
-constexpr double kInnovationGate = 3.0;   // [1] sigmas; a larger cusum means a new motion (a bounce)
+constexpr double kCusumLimit = 3.0;       // [1] sigmas; a larger cusum means a new motion (a bounce)
 constexpr double kCusumForgetting = 0.7;  // [1] from one innovation to the next: a cusum shows within three
 constexpr double kOneEvent = 2.0;         // [s] changes closer together than this are no single event
 
@@ -133,7 +133,7 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   const double least = parameters_.least_sigma * parameters_.least_sigma;
   const double position_noise = std::max(detection.position_sigma * detection.position_sigma, least);
   const double velocity_noise = std::max(memory.diffusion.velocity_noise(), least);
-  const double limit = 2.0 * kInnovationGate * kInnovationGate;  // two axes
+  const double limit = 2.0 * kCusumLimit * kCusumLimit;  // two axes
   Eigen::Vector2d innovation = detection.position_world - track.state.position_world;
   memory.cusum =
       kCusumForgetting * memory.cusum + innovation / std::sqrt(track.position_variance + position_noise);
