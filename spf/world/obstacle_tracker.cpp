@@ -174,18 +174,29 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
 }
 
 void ObstacleTracker::drop_unseen(double time) {
+  stats_.dropped += drop([&](std::size_t k) { return time - memories_[k].last_seen > parameters_.timeout; });
+}
+
+void ObstacleTracker::forget(const std::vector<int>& ids) {
+  static_cast<void>(
+      drop([&](std::size_t k) { return std::binary_search(ids.begin(), ids.end(), tracks_[k].id); }));
+}
+
+template <class Over>
+std::size_t ObstacleTracker::drop(const Over& over) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    if (time - memories_[k].last_seen > parameters_.timeout) continue;
+    if (over(k)) continue;
     if (kept != k) {
       tracks_[kept] = tracks_[k];
       memories_[kept] = memories_[k];
     }
     ++kept;
   }
-  stats_.dropped += tracks_.size() - kept;
+  const std::size_t dropped = tracks_.size() - kept;
   tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(kept), tracks_.end());
   memories_.erase(memories_.begin() + static_cast<std::ptrdiff_t>(kept), memories_.end());
+  return dropped;
 }
 
 }  // namespace spf

@@ -55,6 +55,9 @@ class ObstacleTracker {
   /// uncertainty.
   void update(const Observation& observation);
 
+  /// Ends these tracks (sorted ids): whoever detects them knows that they are no more.
+  void forget(const std::vector<int>& ids);
+
   /// Sorted by id, all at the time of the newest observation.
   [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
   [[nodiscard]] const ObstacleTrackerStats& stats() const { return stats_; }
@@ -73,6 +76,8 @@ class ObstacleTracker {
   void begin_track(std::size_t slot, const Detection& detection, double time);
   void correct(ObstacleTrack& track, Memory& memory, const Detection& detection, double time);
   void drop_unseen(double time);
+  template <class Over>
+  std::size_t drop(const Over& over);
 
   ObstacleTrackerParameters parameters_;
   ObstacleTrackerStats stats_;

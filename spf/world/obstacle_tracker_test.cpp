@@ -286,5 +286,19 @@ TEST(ObstacleTracker, RefusesPlacesAndSpeedsBeyondAllNumbers) {
   EXPECT_EQ(tracker.stats().malformed, 4u);
 }
 
+TEST(ObstacleTracker, ForgetsWhatItIsToldToAndKeepsTheOthers) {
+  ObstacleTracker tracker;
+  Observation observation;
+  observation.time = 1.0;
+  for (const int id : {3, 5, 9})
+    observation.detections.push_back({id, {1.0 * id, 0.0}, std::nullopt, 0.3, 0.05});
+  tracker.update(observation);
+  tracker.forget({3, 4, 9});
+  ASSERT_EQ(tracker.tracks().size(), 1U);
+  EXPECT_EQ(tracker.tracks()[0].id, 5);
+  EXPECT_EQ(tracker.tracks()[0].state.position_world, Eigen::Vector2d(5.0, 0.0));
+  EXPECT_EQ(tracker.stats().dropped, 0U);  // none has timed out
+}
+
 }  // namespace
 }  // namespace spf

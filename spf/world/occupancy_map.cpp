@@ -161,13 +161,14 @@ bool OccupancyMap::segment_clear(const Eigen::Vector2d& a, const Eigen::Vector2d
 }
 
 void OccupancyMap::integrate(const RangeScan& scan, const Pose2& sensor_pose_world,
-                             const std::vector<MaskedDisc>& masked) {
+                             const std::vector<MaskedDisc>& masked,
+                             const std::vector<std::uint8_t>* kept_out) {
   if (scan.ranges.size() > kMostBeams || !finite(scan, sensor_pose_world)) return;
   const Eigen::Vector2d sensor = sensor_pose_world.position_world;
   const Eigen::Vector2d extent = frame_.resolution * Eigen::Vector2d{frame_.width - 1, frame_.height - 1};
   const double reach = reach_of(scan);
   if (box_distance(sensor, frame_.origin_world, frame_.origin_world + extent) > reach) return;
-  collect_beams(scan, sensor_pose_world, reach, masked);
+  collect_beams(scan, sensor_pose_world, reach, masked, kept_out);
   if (beams_.empty()) return;
   if (!sensed_) sensed_.emplace(frame_, max_distance_, parameters_);
   if (sensed_->integrate(sensor, beams_)) ++revision_;
@@ -182,7 +183,8 @@ double OccupancyMap::reach_of(const RangeScan& scan) const {
 }
 
 void OccupancyMap::collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world, double reach,
-                                 const std::vector<MaskedDisc>& masked) {
+                                 const std::vector<MaskedDisc>& masked,
+                                 const std::vector<std::uint8_t>* kept_out) {
   beams_.clear();
   for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
     const double range = scan.ranges[k];
@@ -195,7 +197,8 @@ void OccupancyMap::collect_beams(const RangeScan& scan, const Pose2& sensor_pose
     beam.length = std::min(range, reach);
     if (beam.returned) {
       const Eigen::Vector2d end = sensor_pose_world.position_world + range * beam.direction_world;
-      beam.marks = !on_known_surface(end);
+      beam.marks =
+          !on_known_surface(end) && (kept_out == nullptr || k >= kept_out->size() || (*kept_out)[k] == 0);
       for (const MaskedDisc& disc : masked) {
         beam.marks = beam.marks && (end - disc.position_world).squaredNorm() > disc.radius * disc.radius;
       }

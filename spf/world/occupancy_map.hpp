@@ -49,9 +49,10 @@ class OccupancyMap {
   /// max_range, is "no return". Time is bounded for any sweep: beams are followed across the grid at most,
   /// and less far where all of them together would cross more than 2 * 10^7 cells. A sweep of more than
   /// kMostBeams, from a position farther from the grid than the grid is long, or with numbers that are not
-  /// finite, is ignored.
-  void integrate(const RangeScan& scan, const Pose2& sensor_pose_world,
-                 const std::vector<MaskedDisc>& masked);
+  /// finite, is ignored. `kept_out`: a flag per beam, set where the return must not become an occupied cell;
+  /// null = none is set.
+  void integrate(const RangeScan& scan, const Pose2& sensor_pose_world, const std::vector<MaskedDisc>& masked,
+                 const std::vector<std::uint8_t>* kept_out = nullptr);
 
   /// Distance from a point to the nearest static surface [m], bilinear between nodes, negative inside known
   /// shapes, at most max_distance(). Outside the grid: the value at the nearest point of the grid. Beside a
@@ -92,6 +93,13 @@ class OccupancyMap {
   [[nodiscard]] double margin(double wanted) const { return std::max(wanted, surface_error()); }
   /// Grows whenever any distance changes: cached paths compare it.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
+  /// Whether beams have shown a point's cell and its neighbours to be free: a return there is of something
+  /// that has moved there.
+  [[nodiscard]] bool seen_free(const Eigen::Vector2d& position_world) const {
+    if (!sensed_) return false;
+    const Eigen::Vector2i node = nearest_node(position_world);
+    return sensed_->free_around(node.x(), node.y());
+  }
   /// Hit points of the sensed occupied cells: for display [m].
   [[nodiscard]] std::vector<Eigen::Vector2d> occupied_points() const;
 
@@ -105,7 +113,7 @@ class OccupancyMap {
   [[nodiscard]] bool on_known_surface(const Eigen::Vector2d& position_world) const;
   [[nodiscard]] double reach_of(const RangeScan& scan) const;
   void collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world, double reach,
-                     const std::vector<MaskedDisc>& masked);
+                     const std::vector<MaskedDisc>& masked, const std::vector<std::uint8_t>* kept_out);
 
   GridFrame frame_;
   double max_distance_;

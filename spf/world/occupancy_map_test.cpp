@@ -342,5 +342,22 @@ TEST(OccupancyMap, KnowsSurfacesExactlyUntilItSensesThem) {
   EXPECT_DOUBLE_EQ(map.surface_error(), 0.05);
 }
 
+TEST(OccupancyMap, KeepsOutTheReturnsOfFlaggedBeamsAndKnowsWhatWasFree) {
+  OccupancyMap map{GridFrame::covering({-5.0, -5.0}, {5.0, 5.0}, 0.1), 2.0};
+  EXPECT_FALSE(map.seen_free({1.0, 0.0}));
+  RangeScan scan;
+  scan.angle_min = -0.25;
+  scan.angle_increment = 0.01;
+  scan.ranges.assign(51, 3.0);
+  std::vector<std::uint8_t> kept_out(51, 0);
+  for (std::size_t beam = 25; beam < 51; ++beam) kept_out[beam] = 1;
+  for (int sweep = 0; sweep < 5; ++sweep) map.integrate(scan, {{0.0, 0.0}, 0.0}, {}, &kept_out);
+  EXPECT_LT(map.distance(3.0 * Eigen::Vector2d{std::cos(-0.15), std::sin(-0.15)}), 0.1);
+  EXPECT_GT(map.distance(3.0 * Eigen::Vector2d{std::cos(0.2), std::sin(0.2)}), 0.4);
+  EXPECT_TRUE(map.seen_free({1.5, 0.0}));
+  EXPECT_FALSE(map.seen_free({3.0, -0.45}));  // on the surface
+  EXPECT_FALSE(map.seen_free({0.0, 2.0}));    // no beam went there
+}
+
 }  // namespace
 }  // namespace spf

@@ -248,6 +248,18 @@ void SensedLayer::restore(const Hit& vanished, std::size_t first_node, std::size
   }
 }
 
+bool SensedLayer::free_around(int i, int j) const {
+  const NodeWindow window = window_around(i, j, 1);
+  for (int y = window.low_j; y <= window.high_j; ++y) {
+    for (int x = window.low_i; x <= window.high_i; ++x) {
+      const int tile = tile_of_[tile_slot(x, y)];
+      if (tile < 0 || tiles_[static_cast<std::size_t>(tile)].log_odds[cell_slot(x, y)] > 2 * miss_step_)
+        return false;
+    }
+  }
+  return true;
+}
+
 std::vector<Eigen::Vector2d> SensedLayer::occupied_points() const {
   std::vector<Eigen::Vector2d> points;
   for (const Tile& tile : tiles_) {

@@ -36,6 +36,8 @@ class SensedLayer {
     const int tile = tile_of_[tile_slot(i, j)];
     return tile < 0 ? max_distance_ : tiles_[static_cast<std::size_t>(tile)].distance[cell_slot(i, j)];
   }
+  /// Whether beams have crossed cell (i, j) and its eight neighbours, each more than once.
+  [[nodiscard]] bool free_around(int i, int j) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> occupied_points() const;
 
  private:
