@@ -1,0 +1,169 @@
+#include "spf/perception/assignment.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace spf {
+namespace {
+
+constexpr double kImpossible = 1e12;
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+}  // namespace
+
+Assignment::Assignment() {
+  constexpr std::size_t kUsual = 64;  // rows, and columns
+  for (std::vector<int>* list :
+       {&column_of_row_, &row_of_column_, &rows_, &columns_, &local_row_, &local_column_})
+    list->reserve(kUsual);
+  for (std::vector<int>* list : {&parent_, &matched_row_, &way_}) list->reserve(2 * kUsual + 1);
+  for (std::vector<double>* list : {&row_price_, &column_price_, &slack_}) list->reserve(2 * kUsual + 1);
+  visited_.reserve(2 * kUsual + 1);
+  pairs_.reserve(4 * kUsual);
+  cost_.reserve(16 * kUsual);
+}
+
+void Assignment::solve(int rows, int columns, const std::vector<AssignmentPair>& pairs,
+                       double unassigned_cost) {
+  column_of_row_.assign(at(rows), -1);
+  row_of_column_.assign(at(columns), -1);
+  local_row_.assign(at(rows), -1);
+  local_column_.assign(at(columns), -1);
+  pairs_.assign(pairs.begin(), pairs.end());
+  part(rows, columns, unassigned_cost);
+  std::size_t first = 0;
+  while (first < pairs_.size()) {
+    const int root = root_of(pairs_[first].row);
+    std::size_t last = first + 1;
+    while (last < pairs_.size() && root_of(pairs_[last].row) == root) ++last;
+    solve_exactly(first, last, unassigned_cost);
+    first = last;
+  }
+}
+
+int Assignment::root_of(int node) {
+  while (parent_[at(node)] != node) {
+    parent_[at(node)] = parent_[at(parent_[at(node)])];
+    node = parent_[at(node)];
+  }
+  return node;
+}
+
+/// Drops pairs that cost too much and sorts the others by component.
+void Assignment::part(int rows, int columns, double unassigned_cost) {
+  const auto too_dear = [&](const AssignmentPair& pair) { return !(pair.cost < unassigned_cost); };
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), too_dear), pairs_.end());
+  parent_.resize(at(rows + columns));
+  for (int node = 0; node < rows + columns; ++node) parent_[at(node)] = node;
+  for (const AssignmentPair& pair : pairs_) parent_[at(root_of(rows + pair.column))] = root_of(pair.row);
+  for (int node = 0; node < rows + columns; ++node) parent_[at(node)] = root_of(node);
+  std::sort(pairs_.begin(), pairs_.end(), [this](const AssignmentPair& a, const AssignmentPair& b) {
+    const int root_a = parent_[at(a.row)];
+    const int root_b = parent_[at(b.row)];
+    if (root_a != root_b) return root_a < root_b;
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  });
+}
+
+void Assignment::match_greedily(std::size_t first, std::size_t last) {
+  const auto begin = pairs_.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(last);
+  std::sort(begin, end, [](const AssignmentPair& a, const AssignmentPair& b) {
+    if (a.cost != b.cost) return a.cost < b.cost;
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  });
+  for (auto pair = begin; pair != end; ++pair) {
+    if (column_of_row_[at(pair->row)] >= 0 || row_of_column_[at(pair->column)] >= 0) continue;
+    column_of_row_[at(pair->row)] = pair->column;
+    row_of_column_[at(pair->column)] = pair->row;
+  }
+}
+
+void Assignment::solve_exactly(std::size_t first, std::size_t last, double unassigned_cost) {
+  rows_.clear();
+  columns_.clear();
+  for (std::size_t k = first; k < last; ++k) {
+    int& row = local_row_[at(pairs_[k].row)];
+    int& column = local_column_[at(pairs_[k].column)];
+    if (row < 0) {
+      row = static_cast<int>(rows_.size());
+      rows_.push_back(pairs_[k].row);
+    }
+    if (column < 0) {
+      column = static_cast<int>(columns_.size());
+      columns_.push_back(pairs_[k].column);
+    }
+  }
+  const int row_count = static_cast<int>(rows_.size());
+  if (row_count > kLargestComponent || columns_.size() > 4 * at(kLargestComponent)) {
+    match_greedily(first, last);
+    return;
+  }
+
+  // Every row also has a dummy column of its own, whose cost is that of staying unassigned.
+  const int width = static_cast<int>(columns_.size()) + row_count;
+  cost_.assign(at(row_count) * at(width), kImpossible);
+  for (std::size_t k = first; k < last; ++k) {
+    const int row = local_row_[at(pairs_[k].row)];
+    cost_[at(row) * at(width) + at(local_column_[at(pairs_[k].column)])] = pairs_[k].cost;
+  }
+  for (int row = 0; row < row_count; ++row)
+    cost_[at(row) * at(width) + columns_.size() + at(row)] = unassigned_cost;
+  row_price_.assign(at(row_count), 0.0);
+  column_price_.assign(at(width) + 1, 0.0);
+  matched_row_.assign(at(width) + 1, -1);
+  for (int row = 0; row < row_count; ++row) augment(row, width);
+  for (std::size_t column = 0; column < columns_.size(); ++column) {
+    const int row = matched_row_[column + 1];
+    if (row < 0) continue;
+    column_of_row_[at(rows_[at(row)])] = columns_[column];
+    row_of_column_[at(columns_[column])] = rows_[at(row)];
+  }
+}
+
+/// Assigns one more row along the cheapest augmenting path (Dijkstra on reduced costs).
+void Assignment::augment(int row, int width) {
+  slack_.assign(at(width) + 1, std::numeric_limits<double>::infinity());
+  way_.assign(at(width) + 1, 0);
+  visited_.assign(at(width) + 1, 0);
+  matched_row_[0] = row;
+  int here = 0;
+  do {
+    visited_[at(here)] = 1;
+    const int looking = matched_row_[at(here)];
+    double step = std::numeric_limits<double>::infinity();
+    int next = 0;
+    for (int column = 1; column <= width; ++column) {
+      if (visited_[at(column)] != 0) continue;
+      const double reduced = cost_[at(looking) * at(width) + at(column - 1)] - row_price_[at(looking)] -
+                             column_price_[at(column)];
+      if (reduced < slack_[at(column)]) {
+        slack_[at(column)] = reduced;
+        way_[at(column)] = here;
+      }
+      if (slack_[at(column)] < step) {
+        step = slack_[at(column)];
+        next = column;
+      }
+    }
+    for (int column = 0; column <= width; ++column) {
+      if (visited_[at(column)] != 0) {
+        row_price_[at(matched_row_[at(column)])] += step;
+        column_price_[at(column)] -= step;
+      } else {
+        slack_[at(column)] -= step;
+      }
+    }
+    here = next;
+  } while (matched_row_[at(here)] >= 0);
+  while (here != 0) {
+    const int before = way_[at(here)];
+    matched_row_[at(here)] = matched_row_[at(before)];
+    here = before;
+  }
+}
+
+}  // namespace spf
