@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "spf/perception/index.hpp"
+
 namespace spf {
 namespace {
 
 constexpr double kImpossible = 1e12;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spf/math/plane.hpp"
+#include "spf/perception/index.hpp"
 
 namespace spf {
 namespace {
@@ -11,10 +12,6 @@ namespace {
 constexpr int kMostFitted = 48;      // returns used in one fit; more add nothing
 constexpr int kMostCorners = 32;     // of one segment; beyond it is cut by length
 constexpr double kWalkSigma = 0.05;  // [m] offset of the legs' midpoint from the body's centre
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Largest distance of a return from the first one [m].
 double extent_of(const std::vector<ScanReturn>& returns, const Segment& segment) {

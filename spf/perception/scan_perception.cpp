@@ -4,14 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "spf/perception/index.hpp"
+
 namespace spf {
-namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 ScanPerception::ScanPerception(const PerceptionParameters& parameters)
     : parameters_{validated(parameters)},

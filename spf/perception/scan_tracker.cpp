@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/perception/index.hpp"
+
 namespace spf {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr double kSameTime = 0.01;        // [s] parts farther apart in time are
 constexpr double kDoubleShare = 0.5;      // [1] of the sum of radii: nearer than this, two tracks are one
 constexpr double kVacatedSigmas = 5.0;    // [1] of the range noise
 constexpr double kLargestSigma = 1.0;     // [m] a track with a larger position sigma ends
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 }  // namespace
 

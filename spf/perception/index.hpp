@@ -1,0 +1,12 @@
+// Numbers of beams, segments and tracks as subscripts.
+#pragma once
+
+#include <cstddef>
+
+namespace spf {
+
+[[nodiscard]] constexpr std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+}  // namespace spf
