@@ -6,7 +6,7 @@
 namespace spf::host {
 namespace {
 
-constexpr double kLongestWay = 0.5;  // [s] between the processes, and of their clocks
+constexpr double kLongestDelay = 0.5;  // [s] from process to process, differences of their clocks included
 
 }  // namespace
 
@@ -27,7 +27,7 @@ double PlannerProcess::tell_time(double now) {
 
 bool PlannerProcess::add_command(double time, const Eigen::Vector3d& wheel_speeds, double now) {
   now = tell_time(now);
-  const bool usable = std::abs(now - time) <= kLongestWay && wheel_speeds.allFinite() &&
+  const bool usable = std::abs(now - time) <= kLongestDelay && wheel_speeds.allFinite() &&
                       wheel_speeds.lpNorm<Eigen::Infinity>() <= largest_wheel_speed_;
   // A stamp ahead of this process's clock must not carry the estimate there.
   if (usable) localiser_.applied(std::min(time, now), wheel_speeds);

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
 #include <string>
+#include <vector>
 
 #include "config/robot_file.hpp"
 #include "study/scenario_file.hpp"
