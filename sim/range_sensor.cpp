@@ -36,19 +36,25 @@ struct RangeSensor::Sweep {
   template <class Visit>
   void visit_arc(double from, double span, Visit&& visit) {
     const auto count = static_cast<long>(ranges.size());
-    const long low = static_cast<long>(std::floor((from - first_angle) / increment)) - 1;
-    const long high = static_cast<long>(std::ceil((from + span - first_angle) / increment)) + 1;
-    const long last = std::min(high, low + count - 1);
-    for (long beam = low; beam <= last; ++beam) {
-      const long index = ((beam % count) + count) % count;
-      const double angle = first_angle + static_cast<double>(index) * increment;
-      visit(ranges[static_cast<std::size_t>(index)], Eigen::Vector2d{std::cos(angle), std::sin(angle)});
+    const double turn = 2.0 * kPi;
+    const double start = from - first_angle - turn * std::floor((from - first_angle) / turn);  // in [0, turn)
+    long next = 0;
+    // The arc may begin before the first beam, a turn earlier; no beam twice.
+    for (const double begin : {start - turn, start}) {
+      const long low = static_cast<long>(std::floor(begin / increment)) - 1;
+      const long high = static_cast<long>(std::ceil((begin + span) / increment)) + 1;
+      for (long beam = std::max(low, next); beam <= std::min(high, count - 1); ++beam) {
+        const double angle = first_angle + static_cast<double>(beam) * increment;
+        visit(ranges[static_cast<std::size_t>(beam)], Eigen::Vector2d{std::cos(angle), std::sin(angle)});
+        next = beam + 1;
+      }
     }
   }
 };
 
 RangeSensor::RangeSensor(const Scenario& scenario)
     : beams_{scenario.simulation.sensing.beams},
+      field_of_view_{scenario.simulation.sensing.field_of_view / 360.0 * (2.0 * kPi)},
       range_{scenario.simulation.sensing.range},
       segments_{scenario.walls},
       discs_{scenario.discs} {
@@ -57,8 +63,8 @@ RangeSensor::RangeSensor(const Scenario& scenario)
 }
 
 void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& discs, RangeScan& scan) const {
-  scan.angle_min = -kPi;
-  scan.angle_increment = 2.0 * kPi / beams_;
+  scan.angle_min = -0.5 * field_of_view_;
+  scan.angle_increment = field_of_view_ / beams_;
   scan.max_range = range_;
   scan.ranges.assign(static_cast<std::size_t>(beams_), kNoReturn);
   Sweep sweep{pose_world.position_world, pose_world.heading + scan.angle_min, scan.angle_increment,
@@ -66,6 +72,37 @@ void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& di
   for (const Segment& segment : segments_) cast_segment(segment, sweep);
   for (const Disc& disc : discs_) cast_disc(disc.center, disc.radius, sweep);
   for (const SeenDisc& disc : discs) cast_disc(disc.position_world, disc.radius, sweep);
+}
+
+bool RangeSensor::sees(const Eigen::Vector2d& from_world, const SeenDisc& target,
+                       const std::vector<SeenDisc>& discs) const {
+  constexpr double kWithin = 0.99;  // of the radius: a line to the outline itself would only touch the disc
+  const Eigen::Vector2d way = from_world - target.position_world;
+  const double distance = way.norm();
+  if (distance <= target.radius) return true;
+  const Eigen::Vector2d towards = way / distance;
+  const Eigen::Vector2d beside{-towards.y(), towards.x()};
+  const double cosine = target.radius / distance;  // of the angle between the nearest and a tangent point
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  for (const Eigen::Vector2d& outward :
+       {Eigen::Vector2d{towards}, Eigen::Vector2d{cosine * towards + sine * beside},
+        Eigen::Vector2d{cosine * towards - sine * beside}})
+    if (line_clear({from_world, target.position_world + kWithin * target.radius * outward}, target, discs))
+      return true;
+  return false;
+}
+
+bool RangeSensor::line_clear(const Segment& line, const SeenDisc& target,
+                             const std::vector<SeenDisc>& discs) const {
+  for (const Segment& segment : segments_)
+    if (segments_cross(line, segment)) return false;
+  for (const Disc& disc : discs_)
+    if (distance_to_segment(disc.center, line) < disc.radius) return false;
+  for (const SeenDisc& disc : discs) {
+    const bool itself = disc.position_world == target.position_world && disc.radius == target.radius;
+    if (!itself && distance_to_segment(disc.position_world, line) < disc.radius) return false;
+  }
+  return true;
 }
 
 void RangeSensor::cast_segment(const Segment& segment, Sweep& sweep) const {

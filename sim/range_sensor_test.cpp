@@ -123,5 +123,72 @@ TEST(RangeSensor, SeesThinWallsAndTheFarSideFromInside) {
   for (const double range : inside.ranges) EXPECT_NEAR(range, 0.5, 1e-12);
 }
 
+TEST(RangeSensor, SeesTheSameInPartOfATurnAsInAll) {
+  RandomStream random{41};
+  Scenario scenario;
+  scenario.border = square({0.0, 0.0}, 12.0);
+  for (int round = 0; round < 50; ++round) {
+    std::vector<SeenDisc> discs;
+    for (int k = 0; k < 6; ++k) discs.push_back({3.0 * random.normal2(), random.uniform(0.1, 0.8)});
+    const Pose2 pose{random.normal2(), random.uniform(-kPi, kPi)};
+    scenario.simulation.sensing.beams = 720;
+    scenario.simulation.sensing.field_of_view = 360.0;
+    const RangeScan all = sweep_of(scenario, pose, discs);
+    scenario.simulation.sensing.beams = 540;
+    scenario.simulation.sensing.field_of_view = 270.0;
+    const RangeScan part = sweep_of(scenario, pose, discs);
+    ASSERT_EQ(part.ranges.size(), 540U);
+    EXPECT_NEAR(part.angle_min, -0.75 * kPi, 1e-12);
+    for (std::size_t beam = 0; beam < part.ranges.size(); ++beam) {
+      // Rounding of the angle, 1e-15, moves a range by as much unless the beam grazes a disc.
+      if (std::isinf(part.ranges[beam]) || std::isinf(all.ranges[beam + 90]))
+        EXPECT_EQ(part.ranges[beam], all.ranges[beam + 90]);
+      else
+        EXPECT_NEAR(part.ranges[beam], all.ranges[beam + 90], 1e-6) << beam;
+    }
+  }
+}
+
+/// Whether any of many points of the disc's near side can be seen past the others.
+bool visible_by_sampling(const Scenario& scenario, const std::vector<SeenDisc>& discs,
+                         const Eigen::Vector2d& from, std::size_t target) {
+  std::vector<SeenDisc> others = discs;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(target));
+  const Eigen::Vector2d way = from - discs[target].position_world;
+  const double half = std::acos(discs[target].radius / way.norm());
+  for (int k = -20; k <= 20; ++k) {
+    const double angle = std::atan2(way.y(), way.x()) + 0.999 * half * k / 20.0;
+    const Eigen::Vector2d point = discs[target].position_world +
+                                  discs[target].radius * Eigen::Vector2d{std::cos(angle), std::sin(angle)};
+    const Eigen::Vector2d line = point - from;
+    if (marched(scenario, others, from, std::atan2(line.y(), line.x())) > line.norm() - 2e-3) return true;
+  }
+  return false;
+}
+
+TEST(RangeSensor, SeesADiscWhereSomeOfItIsVisible) {
+  RandomStream random{42};
+  int hidden = 0;
+  int visible = 0;
+  int missed = 0;
+  for (int round = 0; round < 300; ++round) {
+    Scenario scenario;
+    const Eigen::Vector2d low = random.normal2();
+    scenario.boxes = {{low, low + Eigen::Vector2d{random.uniform(0.2, 2.0), random.uniform(0.2, 2.0)}}};
+    scenario.discs = {{2.0 * random.normal2(), random.uniform(0.2, 0.6)}};
+    const Eigen::Vector2d from{-4.0, random.normal()};
+    std::vector<SeenDisc> discs{{{random.uniform(2.0, 3.5), random.normal()}, 0.4},
+                                {{random.uniform(-2.0, 1.0), random.normal()}, 0.4}};
+    const bool sampled = visible_by_sampling(scenario, discs, from, 0);
+    const bool seen = RangeSensor{scenario}.sees(from, discs[0], discs);
+    EXPECT_TRUE(sampled || !seen) << "round " << round;  // never through anything
+    ++(sampled ? visible : hidden);
+    if (sampled && !seen) ++missed;
+  }
+  EXPECT_GT(hidden, 30);
+  EXPECT_GT(visible, 100);
+  EXPECT_LT(missed, 0.1 * visible);  // three points stand for all: a slit between two things may be missed
+}
+
 }  // namespace
 }  // namespace spf::sim

@@ -68,6 +68,13 @@ AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters a
   agent.robot = scenario.robot;
   agent.team.goal_tolerance =
       std::min(agent.team.goal_tolerance, 0.5 * scenario.simulation.trial.arrival_distance);
+  // What a robot knows of its own sensors.
+  const SensingParameters& sensing = scenario.simulation.sensing;
+  agent.perception.enabled = agent.perception.enabled || sensing.detections == DetectionQuality::scan;
+  agent.perception.map_scans = sensing.map == MapKnowledge::sensed;
+  agent.perception.range_sigma = std::max(0.5 * agent.perception.range_sigma, sensing.range_sigma);
+  agent.perception.pose_sigma =
+      std::max(agent.perception.pose_sigma, scenario.simulation.pose_noise.seam_sigma);
   return agent;
 }
 

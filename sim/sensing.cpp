@@ -62,10 +62,14 @@ void Sensing::observe(int robot, const Pose2& true_pose_world, const Surrounding
                       Observation& observation) {
   observation.time = surroundings.time;
   observation.detections.clear();
-  detect_all(robot, true_pose_world.position_world, surroundings, observation);
-  if (parameters_.map == MapKnowledge::sensed) {
+  const bool scans = parameters_.detections == DetectionQuality::scan;
+  const bool scans_needed = scans || parameters_.map == MapKnowledge::sensed;
+  if (scans_needed || !surroundings.dynamic_obstacles->empty() || parameters_.peer_detection_range > 0.0)
+    gather_bodies(robot, true_pose_world.position_world, surroundings);
+  if (!scans) detect_all(robot, true_pose_world.position_world, surroundings, observation);
+  if (scans_needed) {
     if (!observation.scan) observation.scan.emplace();
-    scan(robot, true_pose_world, surroundings, *observation.scan);
+    scan(robot, true_pose_world, *observation.scan);
   } else {
     observation.scan.reset();
   }
@@ -114,18 +118,20 @@ void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundi
             [](const Detection& a, const Detection& b) { return a.id < b.id; });
 }
 
-void Sensing::scan(int robot, const Pose2& true_pose_world, const Surroundings& surroundings,
-                   RangeScan& scan) {
-  const Eigen::Vector2d& from = true_pose_world.position_world;
-  seen_.clear();
+/// What moves and stands in the way of sight: nobody sees through bodies.
+void Sensing::gather_bodies(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings) {
+  bodies_.clear();
   for (const DynamicObstacle& obstacle : *surroundings.dynamic_obstacles)
-    seen_.push_back({obstacle.motion.at(surroundings.share), obstacle.radius});
+    bodies_.push_back({obstacle.motion.at(surroundings.share), obstacle.radius});
   if (parameters_.peers_block_beams)
     surroundings.robot_grid->visit(from, parameters_.range + robot_radius_, [&](int peer) {
       if (peer != robot)
-        seen_.push_back({(*surroundings.robots)[static_cast<std::size_t>(peer)], robot_radius_});
+        bodies_.push_back({(*surroundings.robots)[static_cast<std::size_t>(peer)], robot_radius_});
     });
-  range_sensor_.sweep(true_pose_world, seen_, scan);
+}
+
+void Sensing::scan(int robot, const Pose2& true_pose_world, RangeScan& scan) {
+  range_sensor_.sweep(true_pose_world, bodies_, scan);
   RandomStream& noise = scan_noise_[static_cast<std::size_t>(robot)];
   if (parameters_.range_sigma <= 0.0) return;
   for (double& range : scan.ranges) {

@@ -1,5 +1,6 @@
 // Simulated sensors of the robots (docs/protocol.md): own pose with noise and seams, moving obstacles in
-// range, range scans. Every kind of noise has a random stream of its own per robot. Frame: world.
+// range and line of sight, range scans. Every kind of noise has a random stream of its own per robot. Frame:
+// world.
 #pragma once
 
 #include <vector>
@@ -51,7 +52,8 @@ class Sensing {
                                  const Eigen::Vector2d& velocity, double radius) const;
   void detect_all(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings,
                   Observation& observation);
-  void scan(int robot, const Pose2& true_pose_world, const Surroundings& surroundings, RangeScan& scan);
+  void gather_bodies(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings);
+  void scan(int robot, const Pose2& true_pose_world, RangeScan& scan);
 
   SensingParameters parameters_;
   PoseNoiseParameters pose_noise_;
@@ -62,7 +64,7 @@ class Sensing {
   std::vector<std::uint64_t> detection_seeds_;  // by robot
   std::vector<RandomStream> scan_noise_;        // by robot
   std::vector<std::uint64_t> observations_;     // made so far, by robot
-  std::vector<SeenDisc> seen_;                  // of the current scan, kept for its memory
+  std::vector<SeenDisc> bodies_;                // that block sight in the current observation; reused
 };
 
 }  // namespace spf::sim

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "spf/math/angles.hpp"
@@ -97,6 +98,19 @@ TEST(Sensing, SeesMoversWithinItsRangeExactlyAtTheirPlaceNow) {
   EXPECT_EQ(seen.detections[0].velocity_world, Eigen::Vector2d(1.0, 0.0));
   EXPECT_EQ(seen.detections[0].position_sigma, 0.0);
   EXPECT_EQ(seen.detections[1].id, 2);
+}
+
+TEST(Sensing, HandsOverScansAloneWhenRobotsFindWhatMovesThemselves) {
+  Scene scene;
+  scene.add_robot(0, 0);
+  scene.add_mover(0, 3.0, 0);
+  scene.scenario.simulation.sensing.detections = DetectionQuality::scan;
+  scene.scenario.simulation.sensing.map = MapKnowledge::known;
+  Sensing sensing{scene.scenario};
+  const Observation seen = scene.observe(sensing, 0);
+  EXPECT_TRUE(seen.detections.empty());
+  ASSERT_TRUE(seen.scan);
+  EXPECT_NEAR(*std::min_element(seen.scan->ranges.begin(), seen.scan->ranges.end()), 2.6, 0.01);
 }
 
 TEST(Sensing, NoisyDetectionsAreDrawnByObstacleAloneAndHideTheVelocity) {

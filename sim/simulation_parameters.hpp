@@ -21,6 +21,7 @@ enum class MapKnowledge {
 enum class DetectionQuality {
   exact,  ///< true position and velocity
   noisy,  ///< noisy position, no velocity
+  scan,   ///< none: robots find what moves in their scans
 };
 enum class AfterContact {
   end,    ///< the trial ends
@@ -51,8 +52,10 @@ struct EnumNames<sim::MapKnowledge> {
 };
 template <>
 struct EnumNames<sim::DetectionQuality> {
-  static constexpr std::array<std::pair<sim::DetectionQuality, const char*>, 2> values{
-      {{sim::DetectionQuality::exact, "exact"}, {sim::DetectionQuality::noisy, "noisy"}}};
+  static constexpr std::array<std::pair<sim::DetectionQuality, const char*>, 3> values{
+      {{sim::DetectionQuality::exact, "exact"},
+       {sim::DetectionQuality::noisy, "noisy"},
+       {sim::DetectionQuality::scan, "scan"}}};
 };
 template <>
 struct EnumNames<sim::AfterContact> {
@@ -101,7 +104,8 @@ struct SensingParameters {
   double position_sigma = 0.05;       ///< [m] per axis, of noisy detections
   bool peers_block_beams = true;      ///< the range sensor sees other robots
   double peer_detection_range = 0.0;  ///< [m] other robots reported as discs of unknown intent, 0 = never
-  int beams = 180;                    ///< [1] of a full turn
+  int beams = 180;                    ///< [1] of a sweep
+  double field_of_view = 360.0;       ///< [deg] of the range sensor, as much to the left as to the right
   double range_sigma = 0.0;           ///< [m] noise of one beam
   double rate = 10.0;                 ///< [Hz] of detections and scans
   double map_resolution = 0.1;        ///< [m] of the robots' grids (coarser where they had too many nodes)
@@ -112,13 +116,17 @@ struct SensingParameters {
     visit("range", self.range, "m", Range{0.1, 1000.0}, "how far detector and range sensor reach");
     visit("map", self.map, "static map known from the start, or only as sensed");
     visit("detections", self.detections,
-          "exact: true position and velocity; noisy: position with noise only");
+          "exact: true position and velocity; noisy: position with noise only; scan: none, robots find what "
+          "moves in "
+          "their scans");
     visit("position_sigma", self.position_sigma, "m", Range{0.0, 10.0},
           "noise of a noisy detection, per axis");
     visit("peers_block_beams", self.peers_block_beams, "the range sensor sees other robots");
     visit("peer_detection_range", self.peer_detection_range, "m", Range{0.0, 1000.0},
           "other robots nearer than this are detected as discs of unknown intent (0 = never)");
-    visit("beams", self.beams, "1", Range{3, 3600}, "beams of one turn of the range sensor");
+    visit("beams", self.beams, "1", Range{3, 3600}, "beams of one sweep of the range sensor");
+    visit("field_of_view", self.field_of_view, "deg", Range{10.0, 360.0},
+          "angle that a sweep covers, its middle ahead");
     visit("range_sigma", self.range_sigma, "m", Range{0.0, 10.0}, "noise of one beam");
     visit("rate", self.rate, "Hz", Range{0.1, 200.0}, "rate of detections and scans");
     visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},

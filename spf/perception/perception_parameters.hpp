@@ -6,6 +6,7 @@
 namespace spf {
 
 struct PerceptionParameters {
+  bool enabled = false;       ///< moving objects are found in the robot's own scans
   bool map_scans = true;      ///< static returns enter the map; false: the map is complete
   double range_sigma = 0.02;  ///< [m] noise of one beam
   double pose_sigma = 0.01;   ///< [m] error of the sensor's pose, per axis
@@ -33,40 +34,29 @@ struct PerceptionParameters {
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit("map_scans", self.map_scans, "static returns enter the map");
+    visit("enabled", self.enabled, "moving objects are found in the robot's own scans");
     visit("range_sigma", self.range_sigma, "m", Range{1e-4, 1.0}, "noise of one beam of the range sensor");
     visit("pose_sigma", self.pose_sigma, "m", Range{0.0, 1.0}, "error of the sensor's pose, per axis");
-    visit("breakpoint_angle", self.breakpoint_angle, "rad", Range{0.02, 1.0},
-          "flattest incidence at which returns still hang together (Borges and Aldon 2004: lambda)");
-    visit("split_depth", self.split_depth, kMetresBySize, Range{0.005, 10.0},
-          "depth of a dent that separates two objects");
-    visit("prior_radius", self.prior_radius, kMetresBySize, Range{0.01, 10.0}, "radius expected at first");
-    visit("prior_radius_sigma", self.prior_radius_sigma, kMetresBySize, Range{0.001, 10.0},
-          "spread of the radius expected at first");
-    visit("largest_radius", self.largest_radius, kMetresBySize, Range{0.02, 100.0},
-          "larger objects are tracked in pieces");
-    visit("piece_length", self.piece_length, kMetresBySize, Range{0.02, 100.0},
-          "longest piece of a face that is tracked as one disc");
     visit("leg_width", self.leg_width, kMetresBySize, Range{0.0, 1.0}, "widest leg of a person (0 = none)");
-    visit("leg_gap", self.leg_gap, kMetresBySize, Range{0.0, 2.0}, "largest distance of two legs");
-    visit("shape_sigma", self.shape_sigma, kMetresBySize, Range{0.0, 1.0},
-          "deviation of real objects from a disc");
-    visit("initial_speed", self.initial_speed, kSpeedByRobot, Range{0.01, 50.0},
-          "spread of the velocity of a new track");
-    visit("sudden_speed", self.sudden_speed, kSpeedByRobot, Range{0.0, 50.0},
-          "spread of a sudden change of velocity");
-    visit("velocity_diffusion", self.velocity_diffusion, ScaledUnit{"m^2/s^3", Scale::velocity_diffusion},
-          Range{1e-8, 100.0}, "growth of the variance of velocity");
-    visit("gate", self.gate, "1", Range{1.0, 100.0}, "largest squared Mahalanobis distance of a match");
-    visit("unassigned_cost", self.unassigned_cost, "1", Range{1.0, 1000.0},
-          "cost of leaving a track unassigned");
-    visit("dynamic_distance", self.dynamic_distance, kMetresBySize, Range{0.01, 10.0},
-          "smallest displacement of a dynamic track");
     visit("probation", self.probation, "s", Range{0.0, 60.0},
           "time that something compact has to show that it moves, before it goes into a sensed map");
     visit("coast_time", self.coast_time, "s", Range{0.0, 60.0}, "longest time that a track is out of sight");
-    visit("confirming_hits", self.confirming_hits, "1", Range{1, 100}, "sweeps that confirm a track");
-    visit("misses", self.misses, "1", Range{1, 100}, "sweeps without it that end a track");
+  }
+
+  /// No settings, but they follow the robot.
+  template <class Self, class Visitor>
+  static void visit_constants(Self& self, Visitor&& visit) {
+    visit(self.split_depth, Scale::size, Range{0.005, 10.0});
+    visit(self.prior_radius, Scale::size, Range{0.01, 10.0});
+    visit(self.prior_radius_sigma, Scale::size, Range{0.001, 10.0});
+    visit(self.largest_radius, Scale::size, Range{0.02, 100.0});
+    visit(self.piece_length, Scale::size, Range{0.02, 100.0});
+    visit(self.leg_gap, Scale::size, Range{0.0, 2.0});
+    visit(self.shape_sigma, Scale::size, Range{0.0, 1.0});
+    visit(self.initial_speed, Scale::speed, Range{0.01, 50.0});
+    visit(self.sudden_speed, Scale::speed, Range{0.0, 50.0});
+    visit(self.velocity_diffusion, Scale::velocity_diffusion, Range{1e-8, 100.0});
+    visit(self.dynamic_distance, Scale::size, Range{0.01, 10.0});
   }
 };
 

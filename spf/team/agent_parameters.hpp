@@ -9,6 +9,7 @@
 
 #include "spf/field/field_parameters.hpp"
 #include "spf/math/parameters.hpp"
+#include "spf/perception/perception_parameters.hpp"
 #include "spf/planning/cost_to_go.hpp"
 #include "spf/planning/orca/orca_parameters.hpp"
 #include "spf/planning/planner.hpp"
@@ -47,6 +48,7 @@ struct AgentParameters {
   SpaceTimeParameters space_time;
   OrcaParameters orca;
   TrackerParameters tracker;
+  PerceptionParameters perception;
   ObstacleTrackerParameters obstacles;
   PeerTableParameters peers;
   OccupancyParameters occupancy;
@@ -63,6 +65,7 @@ struct AgentParameters {
     visit.group("space_time", self.space_time);
     visit.group("orca", self.orca);
     visit.group("tracker", self.tracker);
+    visit.group("perception", self.perception);
     visit.group("obstacles", self.obstacles);
     visit.group("peers", self.peers);
   }

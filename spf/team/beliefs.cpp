@@ -13,6 +13,7 @@ Beliefs::Beliefs(int robot_id, const AgentParameters& parameters, const Occupanc
       stale_time_{parameters.team.stale_time},
       map_{map},
       obstacle_tracker_{parameters.obstacles},
+      perception_parameters_{parameters.perception},
       peer_table_{robot_id, parameters.peers} {}
 
 bool Beliefs::timely(const Observation& observation, double now) const {
@@ -23,7 +24,34 @@ void Beliefs::observe(const Observation& observation, const std::optional<Pose2>
   obstacle_tracker_.update(observation);
   if (!observation.scan || !pose_world) return;
   mask_dynamic_returns(observation.time);
-  map_.integrate(*observation.scan, *pose_world, masked_);
+  if (perception_parameters_.enabled)
+    perceive(observation, *pose_world);
+  else if (perception_parameters_.map_scans)
+    map_.integrate(*observation.scan, *pose_world, masked_);
+}
+
+/// Returns that neither the map, tracks of other detectors nor peers explain are tracked; static ones enter
+/// the map.
+void Beliefs::perceive(const Observation& observation, const Pose2& pose_world) {
+  if (!perception_) perception_.emplace(perception_parameters_);
+  SensorSweep sweep;
+  sweep.scan = &*observation.scan;
+  sweep.time = observation.time;
+  sweep.pose_world = pose_world;
+  const bool perceived = perception_->update(sweep, map_, masked_);
+  if (perceived) hand_over_tracks(observation.time);
+  if (perception_parameters_.map_scans)
+    map_.integrate(*observation.scan, pose_world, masked_, perceived ? &perception_->kept_out() : nullptr);
+}
+
+void Beliefs::hand_over_tracks(double time) {
+  perceived_.time = time;
+  perception_->detections(time, perceived_.detections);
+  for (Detection& detection : perceived_.detections) detection.id += kScanTrackId;
+  ended_.assign(perception_->ended().begin(), perception_->ended().end());
+  for (int& id : ended_) id += kScanTrackId;
+  obstacle_tracker_.update(perceived_);
+  obstacle_tracker_.forget(ended_);
 }
 
 void Beliefs::mask_dynamic_returns(double time) {
@@ -32,6 +60,7 @@ void Beliefs::mask_dynamic_returns(double time) {
   const double slack = 0.5 * robot_radius_;
   masked_.clear();
   for (const ObstacleTrack& track : obstacle_tracker_.tracks()) {
+    if (track.id >= kScanTrackId) break;  // sorted; found in scans: must not explain itself
     const Eigen::Vector2d now = track.state.position_world + (time - track.time) * track.state.velocity_world;
     masked_.push_back(
         {now, track.state.radius + slack + 2.0 * track.position_sigma(std::max(0.0, time - track.time))});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spf/math/pose2.hpp"
+#include "spf/perception/scan_perception.hpp"
 #include "spf/team/agent_parameters.hpp"
 #include "spf/world/observation.hpp"
 #include "spf/world/obstacle_tracker.hpp"
@@ -16,6 +17,9 @@
 #include "spf/world/world_snapshot.hpp"
 
 namespace spf {
+
+/// Ids of tracks that the robot has found in its own scans begin here.
+inline constexpr int kScanTrackId = 1'000'000'000;
 
 class Beliefs {
  public:
@@ -46,6 +50,8 @@ class Beliefs {
 
  private:
   void mask_dynamic_returns(double time);
+  void perceive(const Observation& observation, const Pose2& pose_world);
+  void hand_over_tracks(double time);
 
   int robot_id_;
   int priority_;
@@ -53,6 +59,10 @@ class Beliefs {
   double stale_time_;    // [s]
   OccupancyMap map_;
   ObstacleTracker obstacle_tracker_;
+  PerceptionParameters perception_parameters_;
+  std::optional<ScanPerception> perception_;  // since the first scan
+  Observation perceived_;                     // by it from the scan under way, kept for its memory
+  std::vector<int> ended_;                    // likewise
   PeerTable peer_table_;
   std::vector<ObstacleTrack> tracks_;
   std::vector<int> distrusted_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "spf/team/ideal_host_test.hpp"
 
 namespace spf {
@@ -95,6 +97,61 @@ TEST_F(BeliefsTest, TheSnapshotHoldsTheRobotsOwnRank) {
   const Beliefs mine{6, parameters, empty_map()};
   EXPECT_EQ(mine.snapshot(1.0).rank().priority, 4);
   EXPECT_EQ(mine.snapshot(1.0).rank().robot_id, 6);
+}
+
+/// A robot at the origin whose scans alone show a disc that drives past.
+class ScansAlone : public ::testing::Test {
+ protected:
+  void look(const Eigen::Vector2d& disc, double radius) {
+    time += 0.1;
+    Observation observation;
+    observation.time = time;
+    RangeScan& scan = observation.scan.emplace();
+    scan.angle_min = -3.14159265358979;
+    scan.angle_increment = 2.0 * 3.14159265358979 / 720;
+    for (int beam = 0; beam < 720; ++beam) {
+      const double angle = scan.angle_min + beam * scan.angle_increment;
+      const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
+      const double along = disc.dot(direction);
+      const double beside = disc.x() * direction.y() - disc.y() * direction.x();
+      const bool hit = along > 0.0 && std::abs(beside) < radius;
+      scan.ranges.push_back(hit ? along - std::sqrt(radius * radius - beside * beside) : 1e9);
+    }
+    beliefs.observe(observation, Pose2{});
+    beliefs.refresh(time);
+  }
+  static AgentParameters perceiving() {
+    AgentParameters parameters;
+    parameters.perception.enabled = true;
+    return parameters;
+  }
+  double time = 0.0;
+  Beliefs beliefs{1, perceiving(), empty_map()};
+};
+
+TEST_F(ScansAlone, AreEnoughToTrackWhatMovesAndToKeepItOutOfTheMap) {
+  Eigen::Vector2d disc{3.0, -1.5};
+  for (int k = 0; k < 30; ++k) look(disc += Eigen::Vector2d{0.0, 0.1}, 0.3);
+  ASSERT_EQ(beliefs.tracks().size(), 1U);
+  const ObstacleTrack& track = beliefs.tracks()[0];
+  EXPECT_GE(track.id, kScanTrackId);
+  EXPECT_LT((track.state.position_world - disc).norm(), 0.05);
+  EXPECT_LT((track.state.velocity_world - Eigen::Vector2d{0.0, 1.0}).norm(), 0.1);
+  EXPECT_NEAR(track.state.radius, 0.3, 0.03);
+  EXPECT_TRUE(beliefs.map().occupied_points().empty());
+}
+
+TEST_F(ScansAlone, LetGoAtOnceOfWhatHasVanished) {
+  for (int k = 0; k < 5; ++k) look({3.0, -1.5 + 0.1 * k}, 0.3);
+  EXPECT_EQ(beliefs.tracks().size(), 1U);
+  for (int k = 0; k < 5; ++k) look({3.0, 100.0}, 0.3);
+  EXPECT_TRUE(beliefs.tracks().empty());  // the tracker alone would remember it for 2 s
+}
+
+TEST_F(ScansAlone, LeaveToTheMapWhatNeverMoves) {
+  for (int k = 0; k < 25; ++k) look({0.0, 3.0}, 0.3);
+  EXPECT_TRUE(beliefs.tracks().empty());
+  EXPECT_LT(beliefs.map().distance({0.0, 2.7}), 0.1);
 }
 
 }  // namespace
