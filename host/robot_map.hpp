@@ -32,7 +32,9 @@ struct MapGrain {
 [[nodiscard]] inline OccupancyMap sensed_map(const Eigen::Vector2d& centre_world, const HostParameters& host,
                                              const OccupancyParameters& occupancy) {
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * host.grid_size);
-  return empty_map(centre_world - half, centre_world + half, MapGrain::of(host), occupancy);
+  OccupancyMap map = empty_map(centre_world - half, centre_world + half, MapGrain::of(host), occupancy);
+  map.mark_unexplored();
+  return map;
 }
 
 }  // namespace spf::host

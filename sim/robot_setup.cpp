@@ -57,7 +57,10 @@ OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& para
   OccupancyMap map =
       host::empty_map(extent.low, extent.high, grain, parameters, std::sqrt(size.x() * size.y() / kMaxNodes));
   if (scenario.border) map.add_border(scenario.border->low, scenario.border->high);
-  if (sensing.map == MapKnowledge::sensed) return map;
+  if (sensing.map == MapKnowledge::sensed) {
+    map.mark_unexplored();
+    return map;
+  }
   for (const Box& box : scenario.boxes) map.add_box(box.low, box.high);
   for (const Disc& disc : scenario.discs) map.add_disc(disc.center, disc.radius);
   for (const Segment& wall : scenario.walls) add_wall(map, wall);
@@ -70,6 +73,7 @@ AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters a
       std::min(agent.team.goal_tolerance, 0.5 * scenario.simulation.trial.arrival_distance);
   // What a robot knows of its own sensors.
   const SensingParameters& sensing = scenario.simulation.sensing;
+  agent.sight.range = std::min(agent.sight.range, sensing.range);
   agent.perception.enabled = agent.perception.enabled || sensing.detections == DetectionQuality::scan;
   agent.perception.map_scans = sensing.map == MapKnowledge::sensed;
   agent.perception.range_sigma = std::max(0.5 * agent.perception.range_sigma, sensing.range_sigma);

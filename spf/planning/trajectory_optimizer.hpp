@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <vector>
 
 #include "spf/math/lbfgs.hpp"
@@ -64,6 +65,7 @@ struct TrajectoryProblem {
   double peer_factor = 1.0;
   double dynamic_factor = 1.0;
   double static_factor = 1.0;
+  double max_speed = std::numeric_limits<double>::infinity();  ///< [m/s] where less than the robot's
   double limits_factor = 1.0;
   NodeTermRef extra;  ///< a further term of the caller
 };

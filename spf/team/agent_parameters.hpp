@@ -16,6 +16,7 @@
 #include "spf/planning/planner_parameters.hpp"
 #include "spf/planning/space_time/space_time_parameters.hpp"
 #include "spf/robot/robot_parameters.hpp"
+#include "spf/team/sight_parameters.hpp"
 #include "spf/team/team_parameters.hpp"
 #include "spf/tracking/tracker_parameters.hpp"
 #include "spf/world/obstacle_tracker.hpp"
@@ -48,6 +49,7 @@ struct AgentParameters {
   SpaceTimeParameters space_time;
   OrcaParameters orca;
   TrackerParameters tracker;
+  SightParameters sight;
   PerceptionParameters perception;
   ObstacleTrackerParameters obstacles;
   PeerTableParameters peers;
@@ -65,6 +67,7 @@ struct AgentParameters {
     visit.group("space_time", self.space_time);
     visit.group("orca", self.orca);
     visit.group("tracker", self.tracker);
+    visit.group("sight", self.sight);
     visit.group("perception", self.perception);
     visit.group("obstacles", self.obstacles);
     visit.group("peers", self.peers);

@@ -1,6 +1,7 @@
 #include "spf/team/beliefs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "spf/team/schedule.hpp"
 
@@ -11,6 +12,8 @@ Beliefs::Beliefs(int robot_id, const AgentParameters& parameters, const Occupanc
       priority_{parameters.team.priority},
       robot_radius_{parameters.robot.radius},
       stale_time_{parameters.team.stale_time},
+      sight_range_{parameters.sight.range},
+      sight_{parameters.sight.range, parameters.sight.unseen_speed, 2.0 * parameters.team.plan_period},
       map_{map},
       obstacle_tracker_{parameters.obstacles},
       perception_parameters_{parameters.perception},
@@ -24,10 +27,18 @@ void Beliefs::observe(const Observation& observation, const std::optional<Pose2>
   obstacle_tracker_.update(observation);
   if (!observation.scan || !pose_world) return;
   mask_dynamic_returns(observation.time);
+  if (perception_parameters_.enabled) bound_sight(*observation.scan);
   if (perception_parameters_.enabled)
     perceive(observation, *pose_world);
   else if (perception_parameters_.map_scans)
     map_.integrate(*observation.scan, *pose_world, masked_);
+}
+
+/// What scans alone show is seen as far as the sensor reaches and its beams are no farther apart than
+/// something thin is wide.
+void Beliefs::bound_sight(const RangeScan& scan) {
+  const double increment = std::max(std::abs(scan.angle_increment), 1e-9);
+  sight_.range = std::min({sight_range_, scan.max_range, thin_width(robot_radius_) / increment});
 }
 
 /// Returns that neither the map, tracks of other detectors nor peers explain are tracked; static ones enter

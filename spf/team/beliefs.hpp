@@ -39,7 +39,7 @@ class Beliefs {
 
   /// Holds until the next call that changes anything.
   [[nodiscard]] WorldSnapshot snapshot(double time) const {
-    return {time, robot_id_, &map_, &tracks_, &peers(), priority_};
+    return {time, robot_id_, &map_, &tracks_, &peers(), priority_, sight_};
   }
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const { return tracks_; }
@@ -50,6 +50,7 @@ class Beliefs {
 
  private:
   void mask_dynamic_returns(double time);
+  void bound_sight(const RangeScan& scan);
   void perceive(const Observation& observation, const Pose2& pose_world);
   void hand_over_tracks(double time);
 
@@ -57,6 +58,8 @@ class Beliefs {
   int priority_;
   double robot_radius_;  // [m]
   double stale_time_;    // [s]
+  double sight_range_;   // [m] as set
+  Sight sight_;
   OccupancyMap map_;
   ObstacleTracker obstacle_tracker_;
   PerceptionParameters perception_parameters_;

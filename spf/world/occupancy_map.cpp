@@ -207,6 +207,13 @@ void OccupancyMap::collect_beams(const RangeScan& scan, const Pose2& sensor_pose
   }
 }
 
+bool OccupancyMap::explored_free(const Eigen::Vector2d& position_world, double reach) const {
+  if (!unexplored_) return true;
+  if (!sensed_) return false;
+  const Eigen::Vector2i node = nearest_node(position_world);
+  return sensed_->crossed_near(node.x(), node.y(), static_cast<int>(std::ceil(reach / frame_.resolution)));
+}
+
 bool OccupancyMap::on_known_surface(const Eigen::Vector2d& position_world) const {
   if (!known_) return false;
   const auto known_distance = [this](int i, int j) {

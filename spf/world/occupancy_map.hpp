@@ -43,6 +43,10 @@ class OccupancyMap {
   /// The robot's world ends at these lines: outside counts as inside a wall.
   void add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
+  /// From here on a place is unknown until a beam has crossed it: there may be anything. Without this call
+  /// the known shapes are all there is.
+  void mark_unexplored() { unexplored_ = true; }
+
   /// Enters one sweep of the range sensor taken at `sensor_pose_world`: cells crossed by beams become free,
   /// cells with returns occupied (log odds), unless the return lies in a masked disc or within half a cell of
   /// a known shape. Ranges that are NaN, -infinity or not positive are skipped; +infinity, or beyond
@@ -100,6 +104,11 @@ class OccupancyMap {
     const Eigen::Vector2i node = nearest_node(position_world);
     return sensed_->free_around(node.x(), node.y());
   }
+  [[nodiscard]] bool unexplored() const { return unexplored_; }
+  /// Whether nothing static can be at a position for all that is known: in an unexplored map a beam has
+  /// crossed a cell within `reach` [m] of it, and not even a single return came from there; elsewhere always,
+  /// since there distance() tells.
+  [[nodiscard]] bool explored_free(const Eigen::Vector2d& position_world, double reach) const;
   /// Hit points of the sensed occupied cells: for display [m].
   [[nodiscard]] std::vector<Eigen::Vector2d> occupied_points() const;
 
@@ -118,6 +127,7 @@ class OccupancyMap {
   GridFrame frame_;
   double max_distance_;
   OccupancyParameters parameters_;
+  bool unexplored_ = false;
   std::uint64_t revision_ = 0;
   std::shared_ptr<const std::vector<float>> known_;  // [m] of known shapes per node, null = none; see above
   std::optional<SensedLayer> sensed_;                // since the first sweep

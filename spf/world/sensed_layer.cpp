@@ -260,6 +260,21 @@ bool SensedLayer::free_around(int i, int j) const {
   return true;
 }
 
+bool SensedLayer::crossed_near(int i, int j, int reach) const {
+  const NodeWindow window = window_around(i, j, reach);
+  bool crossed = false;
+  for (int y = window.low_j; y <= window.high_j; ++y) {
+    for (int x = window.low_i; x <= window.high_i; ++x) {
+      const int tile = tile_of_[tile_slot(x, y)];
+      if (tile < 0) continue;
+      const std::int16_t log_odds = tiles_[static_cast<std::size_t>(tile)].log_odds[cell_slot(x, y)];
+      if (log_odds > 0) return false;
+      crossed = crossed || log_odds < 0;
+    }
+  }
+  return crossed;
+}
+
 std::vector<Eigen::Vector2d> SensedLayer::occupied_points() const {
   std::vector<Eigen::Vector2d> points;
   for (const Tile& tile : tiles_) {

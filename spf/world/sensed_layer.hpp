@@ -38,6 +38,8 @@ class SensedLayer {
   }
   /// Whether beams have crossed cell (i, j) and its eight neighbours, each more than once.
   [[nodiscard]] bool free_around(int i, int j) const;
+  /// Whether a cell at most `reach` rows and columns from (i, j) speaks for "free", and none for "occupied".
+  [[nodiscard]] bool crossed_near(int i, int j, int reach) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> occupied_points() const;
 
  private:

@@ -55,7 +55,7 @@ struct SpaceTimeParameters {
   /// No settings, but they follow the robot.
   template <class Self, class Visitor>
   static void visit_constants(Self& self, Visitor&& visit) {
-    visit(self.step, Scale::time, Range{0.05, 0.5});
+    visit(self.step, Scale::time, Range{0.05, 0.2});
     visit(self.short_sidestep, Scale::time, Range{0.1, 3.0});
     visit(self.long_sidestep, Scale::time, Range{0.1, 6.0});
     visit(self.keep_bonus, Scale::time, Range{0.0, 10.0});

@@ -9,10 +9,37 @@
 namespace spf {
 namespace {
 
+Eigen::Vector2d between(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double share) {
+  return (1.0 - share) * from + share * to;
+}
+
+/// Least distance to static surfaces along a roll-out and along the way on which the robot then stops [m]. It
+/// looks so often that no surface lies between two places that are both free of it.
+double least_distance(const OccupancyMap& map, const RollOut& roll_out, const Eigen::Vector2d& stop,
+                      double spacing) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to, int parts) {
+    for (int i = 1; i <= parts; ++i)
+      least = std::min(least, map.distance(between(from, to, static_cast<double>(i) / parts)));
+  };
+  const auto parts = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    return std::max(1, static_cast<int>(std::ceil((to - from).norm() / spacing)));
+  };
+  for (int k = 1; k <= roll_out.steps; ++k) {
+    const Eigen::Vector2d& from = roll_out.position_world[static_cast<std::size_t>(k - 1)];
+    const Eigen::Vector2d& to = roll_out.position_world[static_cast<std::size_t>(k)];
+    look(from, to, parts(from, to));
+  }
+  const Eigen::Vector2d& end = roll_out.position_world[static_cast<std::size_t>(roll_out.steps)];
+  look(end, stop, std::max(2, parts(end, stop)));
+  return least;
+}
+
 constexpr double kSlowFraction = 0.5;  // [1] of max_speed: the second speed of the sidesteps
 constexpr double kEarlyProgress =
     0.3;  // [1] weight of the way to go at instants before the horizon: no putting off
 constexpr int kProgressSamples = 3;
+constexpr double kHasteCost = 1e-3;  // [1] of collision_cost, at max_speed where none at all is safe
 constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter motions are not smoothed
 
 RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
@@ -26,9 +53,23 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
     : parameters_{validated(parameters)},
       robot_{validated(robot)},
       risk_{parameters_, robot_.radius, robot_.max_speed},
+      sight_{robot_, parameters_.static_margin},
       smoother_{parameters_, planner, robot_},
       judge_{validated(planner), robot_} {
   settings_ = settings_of(parameters_, robot_, risk_.steps());
+}
+
+/// Static surfaces: the probability that the own position error reaches one. It is not discounted: a wall will
+/// still be there, and a discounted risk would be put off for ever.
+double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
+                                        const PlanRequest& request) const {
+  const OccupancyMap& map = *request.world.map;
+  const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
+  const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
+  const double clearance = least_distance(map, roll_out, stop, robot_.radius) - wanted_clearance;
+  // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
+  const double depth = std::max(0.0, -clearance) / wanted_clearance;
+  return clearance > 4.0 * softness ? 0.0 : normal_tail(clearance / softness) + depth;
 }
 
 SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
@@ -44,32 +85,27 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
   // Early progress is better than the same progress planned for later, which could be postponed again and
   // again: a part of the remaining path counts at some instants in between, too.
-  double between = 0.0;
+  double to_go = 0.0;
   for (int i = 1; i <= kProgressSamples; ++i) {
     const auto at = static_cast<std::size_t>(i * roll_out.steps / (kProgressSamples + 1));
-    between += guide.cost_to_go(roll_out.position_world[at]);
+    to_go += guide.cost_to_go(roll_out.position_world[at]);
   }
-  score.time += kEarlyProgress * between / (kProgressSamples * settings_.max_speed);
+  score.time += kEarlyProgress * to_go / (kProgressSamples * settings_.max_speed);
+  // Faster than what may come from beyond its sight allows.
+  const auto soon = static_cast<std::size_t>(
+      std::min(roll_out.steps, static_cast<int>(std::ceil(request.world.sight.reaction / settings_.step))));
+  const double haste = roll_out.velocity_world[soon].norm() - sight_.open_speed();
+  if (haste > 0.0) score.time += kHasteCost * parameters_.collision_cost * haste / robot_.max_speed;
   if (score.time > enough) return score;
 
-  // Static surfaces: the probability that the own position error reaches one. It is not discounted: a wall
-  // will still be there, and a discounted risk would be put off for ever.
-  const OccupancyMap& map = *request.world.map;
-  const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
-  const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 1; k <= roll_out.steps; ++k) {
-    least = std::min(least, map.distance(roll_out.position_world[static_cast<std::size_t>(k)]));
-  }
   // The motion must end where the robot can still stop; otherwise a blocked robot would run at the obstacle
   // again and again.
   const Eigen::Vector2d& velocity = roll_out.velocity_world[end];
   const Eigen::Vector2d stop = tail + velocity * (velocity.norm() / (2.0 * settings_.max_acceleration));
-  least = std::min({least, map.distance(0.5 * (tail + stop)), map.distance(stop)});
-  const double clearance = least - wanted_clearance;
-  // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
-  const double depth = std::max(0.0, -clearance) / wanted_clearance;
-  const double static_chance = clearance > 4.0 * softness ? 0.0 : normal_tail(clearance / softness) + depth;
+  // By the time a new plan can brake the robot, it must be able to stand within what it has seen.
+  const double static_chance =
+      surface_chance(roll_out, stop, request) +
+      sight_.blind_share(roll_out.position_world[soon], roll_out.velocity_world[soon]);
   const double left = (enough - score.time) / std::max(parameters_.collision_cost, 1e-9) - static_chance;
   score.chance = static_chance;
   score.risk = static_chance * parameters_.collision_cost;
@@ -127,7 +163,7 @@ void SpaceTimePlanner::consider_previous(const PlanRequest& request, PlanResult&
 void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult& result) {
   const Eigen::Vector2d ahead = request.guide->direction(request.head.position_world);
   const double base = ahead.squaredNorm() > 0.0 ? std::atan2(ahead.y(), ahead.x()) : 0.0;
-  const std::array<double, 2> speeds{settings_.max_speed, kSlowFraction * settings_.max_speed};
+  const std::array<double, 2> speeds{robot_.max_speed, kSlowFraction * robot_.max_speed};
   for (int i = 0; i < parameters_.headings; ++i) {
     const double angle = base + 2.0 * kPi * i / parameters_.headings;
     const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
@@ -168,8 +204,10 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   best_is_previous_ = false;
   best_candidate_ = -1;
 
-  // 1. Predictions of obstacles and peers over the horizon.
+  // 1. Predictions of obstacles and peers over the horizon, and how fast sight allows to go.
   risk_.prepare(request);
+  sight_.prepare(request);
+  settings_.max_speed = sight_.speed();
   // 2. The current plan and the direct primitive; these suffice when the direct one is free.
   consider_previous(request, result);
   const MotionPrimitive direct{Eigen::Vector2d::Zero(), 0.0, MotionPrimitive::Then::goal};

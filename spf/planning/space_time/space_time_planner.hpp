@@ -5,6 +5,7 @@
 #pragma once
 
 #include "spf/planning/plan_judge.hpp"
+#include "spf/planning/sight_limit.hpp"
 #include "spf/planning/space_time/motion_primitive.hpp"
 #include "spf/planning/space_time/space_time_parameters.hpp"
 #include "spf/planning/space_time/space_time_risk.hpp"
@@ -35,6 +36,8 @@ class SpaceTimePlanner final : public Planner {
     [[nodiscard]] double total() const { return time + risk; }
   };
   [[nodiscard]] Score score(const RollOut& roll_out, const PlanRequest& request, double enough) const;
+  [[nodiscard]] double surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
+                                      const PlanRequest& request) const;
   void consider(const MotionPrimitive& primitive, const PlanRequest& request, PlanResult& result,
                 double bonus = 0.0);
   void consider_previous(const PlanRequest& request, PlanResult& result);
@@ -50,8 +53,9 @@ class SpaceTimePlanner final : public Planner {
 
   SpaceTimeParameters parameters_;
   RobotParameters robot_;
-  RollOutSettings settings_;
+  RollOutSettings settings_;  // its max_speed is that of the plan under way
   SpaceTimeRisk risk_;
+  SightLimit sight_;
   RollOut trial_;
   RollOut best_;
   Score best_score_;

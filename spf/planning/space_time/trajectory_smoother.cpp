@@ -50,6 +50,7 @@ bool TrajectorySmoother::smooth(const RollOut& roll_out, const PlanRequest& requ
   problem_.start_time = request.time;
   problem_.ends.head = request.head;
   problem_.ends.tail = {roll_out.position_world[end], roll_out.velocity_world[end], Eigen::Vector2d::Zero()};
+  problem_.max_speed = std::max(settings.max_speed, request.head.velocity_world.norm());
   cost_.risk = &risk;
   cost_.map = request.world.map;
   cost_.start_time = request.time;
@@ -68,7 +69,7 @@ bool TrajectorySmoother::smooth(const RollOut& roll_out, const PlanRequest& requ
   const FlatState tail{problem_.ends.tail.position_world, problem_.ends.tail.velocity_world,
                        Eigen::Vector2d::Zero()};
   append_braking(tail, settings, smooth);
-  return smooth.max_speed() <= (1.0 + kSpeedTolerance) * robot_.max_speed &&
+  return smooth.max_speed() <= (1.0 + kSpeedTolerance) * std::min(robot_.max_speed, problem_.max_speed) &&
          smooth.max_acceleration() <= std::max((1.0 + kAccelerationTolerance) * robot_.max_acceleration,
                                                request.head.acceleration_world.norm() + 1e-9);
 }
