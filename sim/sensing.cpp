@@ -100,6 +100,7 @@ void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundi
   for (const DynamicObstacle& obstacle : *surroundings.dynamic_obstacles) {
     const Eigen::Vector2d position = obstacle.motion.at(surroundings.share);
     if ((position - from).norm() > parameters_.range) continue;
+    if (!range_sensor_.sees(from, {position, obstacle.radius}, bodies_)) continue;
     observation.detections.push_back(
         detect(robot, obstacle.id, position, obstacle.velocity_world, obstacle.radius));
   }
@@ -109,6 +110,7 @@ void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundi
   surroundings.robot_grid->visit(from, reach, [&](int peer) {
     const Eigen::Vector2d& position = (*surroundings.robots)[static_cast<std::size_t>(peer)];
     if (peer == robot || (position - from).norm() > reach) return;
+    if (!range_sensor_.sees(from, {position, robot_radius_}, bodies_)) return;
     Detection detection =
         detect(robot, kPeerDetectionId + peer, position, Eigen::Vector2d::Zero(), robot_radius_);
     detection.velocity_world.reset();  // detected, not broadcast: the tracker has to estimate it

@@ -100,6 +100,28 @@ TEST(Sensing, SeesMoversWithinItsRangeExactlyAtTheirPlaceNow) {
   EXPECT_EQ(seen.detections[1].id, 2);
 }
 
+TEST(Sensing, DetectsNobodyBehindAWallOrABody) {
+  for (const DetectionQuality quality : {DetectionQuality::exact, DetectionQuality::noisy}) {
+    Scene scene;
+    scene.scenario.simulation.sensing.detections = quality;
+    scene.add_robot(0, 0);
+    scene.add_mover(0, 0, 3.5);     // behind the wall
+    scene.add_mover(1, 2.0, 0);     // in the open
+    scene.add_mover(2, 4.0, 0);     // straight behind that
+    scene.add_mover(3, -5.5, 3.0);  // looks out past the wall's end
+    scene.scenario.boxes = {{{-5.0, 1.0}, {5.0, 1.2}}};
+    Sensing sensing{scene.scenario};
+    std::vector<int> ids;
+    for (const Detection& detection : scene.observe(sensing, 0).detections) ids.push_back(detection.id);
+    EXPECT_EQ(ids, (std::vector<int>{1}));
+    scene.scenario.boxes = {{{-1.5, 1.0}, {5.0, 1.2}}};
+    Sensing further{scene.scenario};
+    ids.clear();
+    for (const Detection& detection : scene.observe(further, 0).detections) ids.push_back(detection.id);
+    EXPECT_EQ(ids, (std::vector<int>{1, 3}));
+  }
+}
+
 TEST(Sensing, HandsOverScansAloneWhenRobotsFindWhatMovesThemselves) {
   Scene scene;
   scene.add_robot(0, 0);
