@@ -152,7 +152,9 @@ TEST(PedestrianFamily, AContactDoesNotEndTheTrial) {
   setup.simulation.sensing.range = 0.1;
   setup.simulation.radio.loss = 1.0;
   setup.layout.robots = 1;
-  const TrialResult result = Simulation{make_scenario(setup, kDefaultSeed, 0), AgentParameters{}}.run();
+  AgentParameters careless;
+  careless.sight.unseen_speed = 0.0;  // it sees nobody, and expects nobody
+  const TrialResult result = Simulation{make_scenario(setup, kDefaultSeed, 0), careless}.run();
   EXPECT_EQ(result.outcome, TrialOutcome::collision);
   ASSERT_EQ(result.contacts.size(), 1U);
   EXPECT_EQ(result.contacts.front().with, ContactWith::person);

@@ -74,8 +74,11 @@ AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters a
   // What a robot knows of its own sensors.
   const SensingParameters& sensing = scenario.simulation.sensing;
   agent.sight.range = std::min(agent.sight.range, sensing.range);
-  agent.perception.enabled = agent.perception.enabled || sensing.detections == DetectionQuality::scan;
-  agent.perception.map_scans = sensing.map == MapKnowledge::sensed;
+  const bool scans_alone = sensing.detections == DetectionQuality::scan;
+  const bool sensed = sensing.map == MapKnowledge::sensed;
+  agent.perception.enabled = agent.perception.enabled || scans_alone || sensed;
+  agent.perception.map_scans = sensed;
+  agent.perception.moving_alone = !scans_alone;
   agent.perception.range_sigma = std::max(0.5 * agent.perception.range_sigma, sensing.range_sigma);
   agent.perception.pose_sigma =
       std::max(agent.perception.pose_sigma, scenario.simulation.pose_noise.seam_sigma);
@@ -93,8 +96,9 @@ host::HostParameters host_parameters_for(const Scenario& scenario) {
   host.largest_plan_error = std::min(host.largest_plan_error + spread, 100.0);
   host.map_resolution = simulation.sensing.map_resolution;
   host.map_reach = simulation.sensing.map_max_distance;
-  host.relies_on_scan = false;
-  host.relies_on_obstacles = simulation.trial.tracking == TrackingMode::full;
+  const bool scans_alone = simulation.sensing.detections == DetectionQuality::scan;
+  host.relies_on_scan = scans_alone && simulation.trial.tracking == TrackingMode::full;
+  host.relies_on_obstacles = !scans_alone && simulation.trial.tracking == TrackingMode::full;
   host.trusts_peers = true;
   return host;
 }

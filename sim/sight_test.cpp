@@ -1,5 +1,5 @@
-// A robot whose map is unknown, at all kinds of speed, brakes and sight: it never touches what stands, and slows
-// for what it may see too late.
+// A robot whose map is unknown, at all kinds of speed, brakes and sight: it never touches what stands, and
+// slows for what it may see too late.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -77,8 +77,8 @@ TEST_P(SightSlow, NothingThatStandsIsTouched) {
         GetParam().build(scenario);
         const TrialResult result = drive(scenario);
         EXPECT_NE(result.outcome, TrialOutcome::collision)
-            << GetParam().name << ": max_speed " << max_speed << ", max_acceleration " << braking << ", sight "
-            << sight << ", clearance " << result.static_clearance;
+            << GetParam().name << ": max_speed " << max_speed << ", max_acceleration " << braking
+            << ", sight " << sight << ", clearance " << result.static_clearance;
       }
 }
 

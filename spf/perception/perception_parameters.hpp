@@ -8,6 +8,7 @@ namespace spf {
 struct PerceptionParameters {
   bool enabled = false;       ///< moving objects are found in the robot's own scans
   bool map_scans = true;      ///< static returns enter the map; false: the map is complete
+  bool moving_alone = false;  ///< an outside detector tells of all others: only what has moved is reported
   double range_sigma = 0.02;  ///< [m] noise of one beam
   double pose_sigma = 0.01;   ///< [m] error of the sensor's pose, per axis
 

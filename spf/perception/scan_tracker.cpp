@@ -145,7 +145,7 @@ void ScanTracker::judge(const SensorSweep& sweep, ScanTrack& track) {
   }
   // A part of a larger surface enters the map at once and is not reported.
   const bool alone = track.sight == ScanTrack::Sight::seen ? track.isolated && !track.face : track.reported;
-  const bool report = !parameters_.map_scans || track.dynamic || alone;
+  const bool report = track.dynamic || (!parameters_.moving_alone && (!parameters_.map_scans || alone));
   if (track.reported && !report) ended_.push_back(track.id);
   track.reported = report;
   if (track.dynamic || track.sight != ScanTrack::Sight::seen) return;
@@ -228,7 +228,8 @@ void ScanTracker::give_birth(const std::vector<ScanDetection>& detections) {
     }
     track_of_detection_[k] = next_id_;
     tracks_.push_back(born_track(next_id_++, detections[k], parameters_));
-    tracks_.back().reported = !parameters_.map_scans || detections[k].isolated();
+    tracks_.back().reported =
+        !parameters_.moving_alone && (!parameters_.map_scans || detections[k].isolated());
     ++stats_.born;
   }
 }

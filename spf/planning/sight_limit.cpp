@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "spf/planning/cost_to_go.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kUnseenRadius = 0.3;  // [m] of what may come from beyond: a person
 constexpr double kCrawl = 0.05;        // [1] of max_speed
+constexpr double kThin = 2.0 / 3.0;    // [1] of the radius: width of the thinnest things not to be missed
 
 }  // namespace
 
@@ -21,7 +23,7 @@ double stoppable_speed(double gap, double closing_speed, double reaction, double
 }
 
 SightLimit::SightLimit(const RobotParameters& robot, double margin)
-    : robot_{robot}, margin_{margin}, reach_{0.5 * thin_width(robot.radius)} {}
+    : robot_{robot}, margin_{margin}, reach_{0.5 * kThin * robot.radius} {}
 
 void SightLimit::prepare(const PlanRequest& request) {
   map_ = request.world.map;
@@ -31,8 +33,10 @@ void SightLimit::prepare(const PlanRequest& request) {
   // this beyond what closes until it stands.
   const double backing = std::min(sight.unseen_speed, robot_.max_speed);
   const double giving_way = backing * (sight.unseen_speed - 0.5 * backing) / robot_.max_acceleration;
-  open_speed_ = stoppable_speed(sight.range - own - kUnseenRadius - giving_way, sight.unseen_speed,
-                                sight.reaction, robot_.max_acceleration);
+  open_speed_ = sight.unseen_speed > 0.0
+                    ? stoppable_speed(sight.range - own - kUnseenRadius - giving_way, sight.unseen_speed,
+                                      sight.reaction, robot_.max_acceleration)
+                    : std::numeric_limits<double>::infinity();
   speed_ = std::min(robot_.max_speed, open_speed_);
   if (map_->unexplored()) {
     const double stop = speed_ * (sight.reaction + 0.5 * speed_ / robot_.max_acceleration);

@@ -1,7 +1,9 @@
 #include "spf/robot/omni_dynamics.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "spf/math/angles.hpp"
 
@@ -71,6 +73,19 @@ void OmniDynamics::step(double dt, const Eigen::Vector3d& commanded_wheel_speeds
   state_.twist_world += dt * wrench_world.cwiseQuotient(inertia_);
   state_.pose_world.position_world += 0.5 * dt * (twist_world + state_.twist_world).head<2>();
   state_.pose_world.heading = wrap_angle(heading + turn);
+}
+
+double OmniDynamics::max_acceleration_anywhere() const {
+  // A wheel is strained most by a motion along its own rim.
+  double least = std::numeric_limits<double>::infinity();
+  for (int wheel = 0; wheel < 3; ++wheel)
+    least = std::min(least, max_acceleration_along(kinematics_.wheel_from_body().row(wheel).head<2>()));
+  return least;
+}
+
+RobotParameters within_drive(RobotParameters robot) {
+  robot.max_acceleration = std::min(robot.max_acceleration, OmniDynamics{robot}.max_acceleration_anywhere());
+  return robot;
 }
 
 }  // namespace spf

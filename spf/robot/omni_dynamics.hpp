@@ -46,6 +46,9 @@ class OmniDynamics {
   /// 0) within the torque limits.
   [[nodiscard]] double max_acceleration_along(const Eigen::Vector2d& direction_body) const;
 
+  /// The same along the worst direction: what the robot can rely on, however it is turned.
+  [[nodiscard]] double max_acceleration_anywhere() const;
+
   [[nodiscard]] const OmniKinematics& kinematics() const { return kinematics_; }
 
  private:
@@ -55,5 +58,8 @@ class OmniDynamics {
   PlantState state_;
   Eigen::Vector3d wheel_torques_ = Eigen::Vector3d::Zero();
 };
+
+/// The robot as plans may rely on it: max_acceleration is no more than its wheels give in every direction.
+[[nodiscard]] RobotParameters within_drive(RobotParameters robot);
 
 }  // namespace spf

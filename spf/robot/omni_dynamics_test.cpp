@@ -173,5 +173,20 @@ TEST(OmniDynamics, CommandThatIsNotANumberBrakes) {
   EXPECT_LT(plant.state().twist_world.norm(), 1e-6);
 }
 
+TEST(OmniDynamics, PlansRelyOnWhatWheelsGiveHoweverTheRobotIsTurned) {
+  const OmniDynamics plant{RobotParameters{}};
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 720; ++k) {
+    const double angle = k * kPi / 360.0;
+    least = std::min(least, plant.max_acceleration_along({std::cos(angle), std::sin(angle)}));
+  }
+  EXPECT_NEAR(plant.max_acceleration_anywhere(), least, 1e-3);
+  RobotParameters strong;
+  strong.max_acceleration = 0.5 * least;
+  EXPECT_EQ(within_drive(strong).max_acceleration, 0.5 * least);
+  strong.max_acceleration = 2.0 * least;
+  EXPECT_EQ(within_drive(strong).max_acceleration, plant.max_acceleration_anywhere());
+}
+
 }  // namespace
 }  // namespace spf

@@ -27,18 +27,19 @@ void Beliefs::observe(const Observation& observation, const std::optional<Pose2>
   obstacle_tracker_.update(observation);
   if (!observation.scan || !pose_world) return;
   mask_dynamic_returns(observation.time);
-  if (perception_parameters_.enabled) bound_sight(*observation.scan);
+  if (perception_parameters_.enabled && !perception_parameters_.moving_alone) bound_sight(*observation.scan);
   if (perception_parameters_.enabled)
     perceive(observation, *pose_world);
   else if (perception_parameters_.map_scans)
     map_.integrate(*observation.scan, *pose_world, masked_);
 }
 
-/// What scans alone show is seen as far as the sensor reaches and its beams are no farther apart than
-/// something thin is wide.
+/// What scans alone show is seen as far as the sensor reaches and its beams are no farther apart than a pair
+/// of legs is wide.
 void Beliefs::bound_sight(const RangeScan& scan) {
+  constexpr double kLegs = 0.2;  // [m]
   const double increment = std::max(std::abs(scan.angle_increment), 1e-9);
-  sight_.range = std::min({sight_range_, scan.max_range, thin_width(robot_radius_) / increment});
+  sight_.range = std::min({sight_range_, scan.max_range, kLegs / increment});
 }
 
 /// Returns that neither the map, tracks of other detectors nor peers explain are tracked; static ones enter

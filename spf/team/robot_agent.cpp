@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "spf/robot/omni_dynamics.hpp"
 #include "spf/team/announcement.hpp"
 #include "spf/team/beliefs.hpp"
 #include "spf/team/commitment.hpp"
@@ -12,6 +13,14 @@
 #include "spf/team/schedule.hpp"
 
 namespace spf {
+namespace {
+
+AgentParameters within_drive(AgentParameters parameters) {
+  parameters.robot = spf::within_drive(parameters.robot);
+  return parameters;
+}
+
+}  // namespace
 
 struct RobotAgent::Implementation {
   Implementation(int robot_id, const AgentParameters& agent_parameters, const OccupancyMap& map,
@@ -43,7 +52,7 @@ struct RobotAgent::Implementation {
 RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& agent_parameters,
                                            const OccupancyMap& map, const Pose2& start, double time)
     : id{robot_id},
-      parameters{validated(agent_parameters)},
+      parameters{within_drive(validated(agent_parameters))},
       beliefs{robot_id, parameters, map},
       planner{parameters.make_planner(parameters)},
       guide{parameters, planner->approaches_cut_off_goal(), time},

@@ -13,14 +13,9 @@ namespace spf {
 /// What the robot cannot know, since it does not see that far.
 struct Sight {
   double range = std::numeric_limits<double>::infinity();  ///< [m] up to which it sees whatever moves
-  double unseen_speed = 0.0;                               ///< [m/s] of what may come from beyond
-  double reaction = 0.2;                                   ///< [s] from what is seen to a robot that brakes
+  double unseen_speed = 0.0;  ///< [m/s] of what may come from beyond; 0 = nothing does
+  double reaction = 0.2;      ///< [s] from what is seen to a robot that brakes
 };
-
-/// Width of the thinnest things that a robot has to see [m]: 0.2 m for one of 0.3 m radius.
-[[nodiscard]] constexpr double thin_width(double robot_radius) {
-  return robot_radius * (2.0 / 3.0);
-}
 
 /// A view: the agent owns what it points to and keeps it unchanged during planning.
 struct WorldSnapshot {

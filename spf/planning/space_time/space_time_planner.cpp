@@ -39,7 +39,7 @@ constexpr double kSlowFraction = 0.5;  // [1] of max_speed: the second speed of 
 constexpr double kEarlyProgress =
     0.3;  // [1] weight of the way to go at instants before the horizon: no putting off
 constexpr int kProgressSamples = 3;
-constexpr double kHasteCost = 1e-3;  // [1] of collision_cost, at max_speed where none at all is safe
+constexpr double kHasteCost = 1e-3;     // [1] of collision_cost, at max_speed where none at all is safe
 constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter motions are not smoothed
 
 RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
@@ -59,8 +59,8 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
   settings_ = settings_of(parameters_, robot_, risk_.steps());
 }
 
-/// Static surfaces: the probability that the own position error reaches one. It is not discounted: a wall will
-/// still be there, and a discounted risk would be put off for ever.
+/// Static surfaces: the probability that the own position error reaches one. It is not discounted: a wall
+/// will still be there, and a discounted risk would be put off for ever.
 double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
                                         const PlanRequest& request) const {
   const OccupancyMap& map = *request.world.map;
