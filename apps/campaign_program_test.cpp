@@ -243,6 +243,33 @@ TEST_F(CampaignProgram, LinksAsManyReplaysAsAskedForAndMakesEachOnce) {
   EXPECT_EQ(text_of(folder_ / "whole" / "report.html").find("adds the others"), std::string::npos);
 }
 
+// Results outlive the version that made them: what it can no longer read is told, and the rest is reported.
+TEST_F(CampaignProgram, ReportsResultsWhoseScenarioCannotBeRead) {
+  run_whole();
+  int spoilt = 0;
+  for (const auto& entry : fs::directory_iterator{folder_ / "whole" / "cells"}) {
+    if (entry.path().filename().string().find("_walk_0_full_hopeless") == std::string::npos) continue;
+    std::string text = text_of(entry.path());
+    const std::size_t group = text.find("\n  space_time:\n");
+    ASSERT_NE(group, std::string::npos) << entry.path();
+    text.insert(text.find('\n', group + 1) + 1, "    sigma_floor: 0.03\n    peer_sigma: 0.02\n");
+    std::ofstream{entry.path()} << text;
+    ++spoilt;
+  }
+  ASSERT_EQ(spoilt, 1);
+  const Finished report = run("report whole --replays all --quiet");
+  EXPECT_EQ(report.status, 0);
+  EXPECT_THAT(report.error, StartsWith("warning: no replays of scene, orca_wide, walk noise at 0 Sigma, full "
+                                       "tracking, hopeless, whose scenario cannot be read: whole"));
+  EXPECT_THAT(report.error, HasSubstr("agent.space_time.sigma_floor = 0.03 is no parameter any more"));
+  EXPECT_THAT(report.error, HasSubstr(" (and 1 more)\n"));
+  EXPECT_EQ(lines_of(folder_ / "stderr").size(), 1u);  // once, although six of its trials failed
+  std::size_t replays = 0;
+  for (const auto& entry : fs::directory_iterator{folder_ / "whole" / "report_replays"})
+    replays += entry.path().extension() == ".html" ? 1 : 0;
+  EXPECT_EQ(replays, 6u);  // of the other cell
+}
+
 /// The very lines of docs/campaigns.md, but for the campaign and the number of parts.
 TEST_F(CampaignProgram, RunsUnderGnuParallelAsDocumented) {
   if (std::system("parallel --version 2>/dev/null | grep -q '^GNU parallel'") != 0)

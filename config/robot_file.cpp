@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "config/removed_keys.hpp"
 #include "config/renamed_keys.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
@@ -14,6 +15,7 @@ RobotFile read_document(YamlNode root, const MethodTable& methods, InputProblems
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to check further
   if (!require_map(root, problems)) problems.throw_if_any();
   rename_old_keys(root, OldKey::conflicts, problems);
+  refuse_removed_keys(root, problems);
   RobotFile head;
   head.method = MethodChoice{kDefaultMethod, methods};
   const std::vector<std::string> keys = keys_of(head);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "config/parameter_text.hpp"
+#include "config/removed_keys.hpp"
 #include "config/renamed_keys.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
@@ -177,6 +178,7 @@ RunConfiguration read_document(YamlNode root, const std::vector<Setting>& settin
     apply_setting(root, setting.assignment, setting.source, problems);
     rename_old_keys(root, OldKey::replaces, problems);
   }
+  refuse_removed_keys(root, problems);
   if (!require_map(root, problems)) problems.throw_if_any();
   RunConfiguration config = read_keys(root, methods, problems);
   if (has_recording(config)) read_recording(root, config, problems);

@@ -97,18 +97,6 @@ TEST(ScenarioFile, MethodSetsAgentParametersAndTheFileOverridesThem) {
   EXPECT_EQ(make_trial(config, 0).robot.radius, 0.25);
 }
 
-// What once was a parameter and is a constant now: a file that still sets it is told so, not obeyed in
-// silence.
-TEST(ScenarioFile, RefusesKeysOfParametersThatAreConstantsNow) {
-  const std::string found = report(
-      "family: t2\nrobot: {wheel_count: 3}\nagent:\n  team: {keep_candidates: true}\n"
-      "  planner: {optimizer: {memory: 8}}\n  space_time: {sigma_floor: 0.1}\n");
-  EXPECT_THAT(found, HasSubstr("file.yaml:2:9: robot.wheel_count = 3 is not a known key"));
-  EXPECT_THAT(found, HasSubstr("file.yaml:4:10: agent.team.keep_candidates = true is not a known key"));
-  EXPECT_THAT(found, HasSubstr("agent.planner.optimizer"));
-  EXPECT_THAT(found, HasSubstr("file.yaml:6:16: agent.space_time.sigma_floor = 0.1 is not a known key"));
-}
-
 TEST(ScenarioFile, DescribesASceneByHand) {
   const RunConfiguration config = run_configuration_from_text(
       "family: explicit\n"
