@@ -164,7 +164,7 @@ void PlannerHost::start_when_ready(double now, const Localiser& localiser) {
                      localiser.pose_age(now) <= agent_parameters_.team.stale_time && standing_.stands(now);
   if (!ready) return;
   const Pose2 here = standing_.last()->pose_world;
-  if (!map_) map_ = sensed_map(here.position_world, host_, agent_parameters_.occupancy);
+  if (!map_) map_ = sensed_map(here.position_world, host_);
   make_agent(here, now);
 }
 

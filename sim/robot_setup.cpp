@@ -49,13 +49,13 @@ Box extent_of(const Scenario& scenario) {
 
 }  // namespace
 
-OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& parameters) {
+OccupancyMap robot_map(const Scenario& scenario) {
   const SensingParameters& sensing = scenario.simulation.sensing;
   const Box extent = extent_of(scenario);
   const Eigen::Vector2d size = extent.high - extent.low;
   const host::MapGrain grain{sensing.map_resolution, sensing.map_max_distance};
   OccupancyMap map =
-      host::empty_map(extent.low, extent.high, grain, parameters, std::sqrt(size.x() * size.y() / kMaxNodes));
+      host::empty_map(extent.low, extent.high, grain, std::sqrt(size.x() * size.y() / kMaxNodes));
   if (scenario.border) map.add_border(scenario.border->low, scenario.border->high);
   if (sensing.map == MapKnowledge::sensed) return map;
   for (const Box& box : scenario.boxes) map.add_box(box.low, box.high);

@@ -83,7 +83,7 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
       radio{scenario},
       meter{scenario.robots.size()} {
   AgentParameters parameters = agent_parameters_for(scenario, agent);
-  const OccupancyMap map = robot_map(scenario, parameters.occupancy);
+  const OccupancyMap map = robot_map(scenario);
   if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame());
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
     if (listener != nullptr) listeners.push_back(listener);

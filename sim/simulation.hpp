@@ -50,7 +50,7 @@ class Simulation {
 };
 
 /// The map that robots are given: its frame, the border, and the static shapes when they are known.
-[[nodiscard]] OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& parameters);
+[[nodiscard]] OccupancyMap robot_map(const Scenario& scenario);
 
 /// The parameters an agent gets in this scenario: the robot's and the rules of the trial over the fleet's.
 [[nodiscard]] AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent);

@@ -227,13 +227,13 @@ TEST(RobotMap, KnowsTheStaticShapesOnlyWhenTheyAreKnown) {
   scenario.boxes = {square({2.0, 2.0}, 1.0)};
   scenario.discs = {{{-2.0, -2.0}, 0.5}};
   scenario.walls = {{{-3.0, 5.0}, {3.0, 6.0}}};
-  const OccupancyMap known = robot_map(scenario, {});
+  const OccupancyMap known = robot_map(scenario);
   EXPECT_NEAR(known.distance({2.0, 3.2}), 0.7, 1e-5);
   EXPECT_NEAR(known.distance({-2.0, -3.0}), 0.5, 1e-2);
   EXPECT_NEAR(known.distance({0.0, 5.1}), distance_to_segment({0.0, 5.1}, scenario.walls[0]), 5e-3);
   EXPECT_NEAR(known.distance({9.5, 0.0}), 0.5, 1e-5);
   scenario.simulation.sensing.map = MapKnowledge::sensed;
-  const OccupancyMap empty = robot_map(scenario, {});
+  const OccupancyMap empty = robot_map(scenario);
   EXPECT_NEAR(empty.distance({2.0, 2.0}), empty.max_distance(), 1e-5);
   EXPECT_NEAR(empty.distance({9.5, 0.0}), 0.5, 1e-5);  // the border is always known
 }

@@ -18,7 +18,6 @@
 #include "spf/team/team_parameters.hpp"
 #include "spf/tracking/tracker_parameters.hpp"
 #include "spf/world/obstacle_tracker.hpp"
-#include "spf/world/occupancy_parameters.hpp"
 #include "spf/world/peer_table.hpp"
 
 namespace spf {
@@ -49,7 +48,6 @@ struct AgentParameters {
   TrackerParameters tracker;
   ObstacleTrackerParameters obstacles;
   PeerTableParameters peers;
-  OccupancyParameters occupancy;
   PlannerFactory make_planner = make_space_time_planner;  ///< not among the fields: a method sets it
 
   template <class Self, class Visitor>

@@ -328,8 +328,7 @@ Converted<spf::host::SensedWorld> from_message(const spf_empc_msgs::Observation&
 // ---- maps -------------------------------------------------------------------------------------------------
 
 Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid, const std::string& frame,
-                                          const spf::host::HostParameters& host,
-                                          const spf::OccupancyParameters& occupancy) {
+                                          const spf::host::HostParameters& host) {
   using Result = Converted<spf::OccupancyMap>;
   constexpr double kMostCells = 1 << 26;
   constexpr int kOccupied = 50;
@@ -352,7 +351,7 @@ Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid, c
       low + cell * Eigen::Vector2d{static_cast<double>(width), static_cast<double>(height)};
   try {
     // Shapes between nodes keep their exact distance, so nodes may be farther apart than cells.
-    spf::OccupancyMap map = spf::host::empty_map(low, high, spf::host::MapGrain::of(host), occupancy, cell);
+    spf::OccupancyMap map = spf::host::empty_map(low, high, spf::host::MapGrain::of(host), cell);
     map.add_border(low, high);
     for (std::size_t j = 0; j < height; ++j) {
       const auto row = grid.data.begin() + static_cast<std::ptrdiff_t>(j * width);

@@ -114,8 +114,7 @@ void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
 
 void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
   if (!config_.waits_for_map) return;
-  Converted<spf::OccupancyMap> known =
-      from_message(*map, config_.frame, config_.file.host, config_.agent.occupancy);
+  Converted<spf::OccupancyMap> known = from_message(*map, config_.frame, config_.file.host);
   if (!known) {
     host_.planner().count_refused_input();
     return refuse("/map", known.refusal);

@@ -56,7 +56,7 @@ class CellPainter {
 
 Box extent_of(const Scenario& scenario) {
   if (scenario.border) return *scenario.border;
-  const spf::GridFrame frame = spf::sim::robot_map(scenario, {}).frame();
+  const spf::GridFrame frame = spf::sim::robot_map(scenario).frame();
   return {frame.origin_world, frame.node_position(frame.width - 1, frame.height - 1)};
 }
 

@@ -54,7 +54,7 @@ TEST(MapMessage, ShowsTheKnownShapesToHalfACell) {
 
 TEST(MapMessage, GivesARobotTheDistancesOfTheTruth) {
   const Scenario scenario = place_with_shapes();
-  const auto map = from_message(map_message(scenario, 0.05, kStamp), "map", {}, {});
+  const auto map = from_message(map_message(scenario, 0.05, kStamp), "map", {});
   ASSERT_TRUE(map) << map.refusal;
   for (const Eigen::Vector2d& place :
        {Eigen::Vector2d{-0.5, 0.5}, {1.6, 0.5}, {-2.0, 0.0}, {-3.5, -2.0}, {3.5, -0.9}, {0.5, 1.9}}) {

@@ -76,8 +76,7 @@ struct ToldTrajectory {
 // ---- maps: cells of 50 or more are occupied, unknown ones are free, and the world ends at the edges.
 [[nodiscard]] Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid,
                                                         const std::string& frame,
-                                                        const spf::host::HostParameters& host,
-                                                        const spf::OccupancyParameters& occupancy);
+                                                        const spf::host::HostParameters& host);
 [[nodiscard]] nav_msgs::OccupancyGrid to_message(const spf::OccupancyMap& map, const std::string& frame);
 
 }  // namespace spf_empc_ros
