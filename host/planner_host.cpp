@@ -25,6 +25,14 @@ const char* to_string(ObservationVerdict verdict) {
   return "?";
 }
 
+ObservationVerdict time_verdict(double observed, double now, double stale_time, double clock_error,
+                                bool newer) {
+  const Timeliness of_time = timeliness(observed, now, stale_time, clock_error);
+  if (of_time == Timeliness::ahead) return ObservationVerdict::future;
+  if (of_time == Timeliness::late || !newer) return ObservationVerdict::late;
+  return ObservationVerdict::accepted;
+}
+
 PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostParameters& host,
                          std::uint32_t first_sequence)
     : robot_id_{robot_id},
@@ -51,13 +59,9 @@ ObservationVerdict PlannerHost::judge(const SensedWorld& sensed, double now) con
   if (!std::isfinite(observation.time) || !sensible(observation.detections) ||
       (observation.scan && !sensible(*observation.scan)))
     return ObservationVerdict::malformed;
-  // What the agent would not take in must not pass for a look around.
-  if (observation.time > now + std::min(host_.clock_error, kClockError)) return ObservationVerdict::future;
   const bool newer = (observation.scan && observation.time > last_scan_time_) ||
                      (sensed.has_detections && observation.time > last_detections_time_);
-  if (!newer || observation.time < now - agent_parameters_.team.stale_time - kTimeTolerance)
-    return ObservationVerdict::late;
-  return ObservationVerdict::accepted;
+  return time_verdict(observation.time, now, agent_parameters_.team.stale_time, host_.clock_error, newer);
 }
 
 ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, double now,

@@ -26,6 +26,10 @@ enum class ObservationVerdict {
 };
 [[nodiscard]] const char* to_string(ObservationVerdict verdict);
 
+/// The verdict on the finite time of an observation (`timeliness`); `newer` than the last of its kind.
+[[nodiscard]] ObservationVerdict time_verdict(double observed, double now, double stale_time,
+                                              double clock_error, bool newer);
+
 /// What was sensed, and of what: a list of no obstacles may mean "none there" or "nobody looked".
 struct SensedWorld {
   Observation observation;

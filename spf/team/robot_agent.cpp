@@ -134,8 +134,7 @@ MessageVerdict RobotAgent::hear(const HeardMessage& message, double now) {
   return implementation_->beliefs.hear(message, now);
 }
 void RobotAgent::observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now) {
-  Beliefs& beliefs = implementation_->beliefs;
-  if (beliefs.timely(observation, now)) beliefs.observe(observation, pose_world);
+  implementation_->beliefs.observe(observation, pose_world, now);
 }
 bool RobotAgent::plan_due(double now) const {
   return is_due(implementation_->next_plan_time, now);
