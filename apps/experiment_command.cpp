@@ -274,6 +274,10 @@ int experiment(const ExperimentOptions& options) {
     throw InputError{{"--resume", 0, 0}, "needs --out, the folder to go on with"};
   CampaignPlan plan = read_plan(options);
   narrow(plan, options);
+  std::vector<InputProblem> warnings;
+  for (const Cell& cell : plan.cells)
+    warnings.insert(warnings.end(), cell.config.warnings.begin(), cell.config.warnings.end());
+  print_warnings(warnings);
   return Experiment{options, std::move(plan)}.run();
 }
 

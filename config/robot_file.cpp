@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "config/contradiction_report.hpp"
 #include "config/removed_keys.hpp"
 #include "config/renamed_keys.hpp"
 #include "config/yaml_reader.hpp"
@@ -24,6 +25,10 @@ RobotFile read_document(YamlNode root, const MethodTable& methods, InputProblems
   RobotFile file = default_robot_file(head.method, head.robot);
   RobotFile::visit_parameters(file, reader);
   reader.finish();
+  // A refused value has been replaced by a default, which contradicts nothing that was meant.
+  if (problems.empty())
+    report_contradictions(root, host::contradictions(agent_parameters(file), file.host), problems,
+                          file.warnings);
   problems.throw_if_any();
   return file;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host/contradictions.hpp"
 #include "host/plan_check.hpp"
 #include "host/robot_map.hpp"
 #include "host/scan_check.hpp"
@@ -40,7 +41,9 @@ PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostP
       host_{validated(host)},
       watchdog_{host_, agent_parameters_.team.stale_time},
       standing_{host_, agent_parameters_.robot},
-      sequence_{first_sequence} {}
+      sequence_{first_sequence} {
+  refuse_contradictions(contradictions(agent_parameters_, host_));
+}
 
 void PlannerHost::set_map(OccupancyMap map) {
   map_ = std::move(map);

@@ -68,7 +68,8 @@ struct PlannerCounts {
 class PlannerHost {
  public:
   /// `first_sequence` numbers the first message: let it grow from process to process (a clock does), and
-  /// peers believe a restarted robot at once. Throws std::invalid_argument on parameters out of range.
+  /// peers believe a restarted robot at once. Throws std::invalid_argument on parameters out of range, and on
+  /// those that contradict each other (contradictions.hpp).
   PlannerHost(int robot_id, const AgentParameters& agent, const HostParameters& host,
               std::uint32_t first_sequence = 0);
 

@@ -19,12 +19,15 @@ struct MapGrain {
   }
 };
 
+/// Distances reach over so many nodes at least [1].
+inline constexpr double kLeastReach = 4.0;
+
 /// Nothing is known of this rectangle yet. Nodes are no nearer than `finest` [m] to each other, whatever the
-/// grain wants; distances reach over four of them at least.
+/// grain wants.
 [[nodiscard]] inline OccupancyMap empty_map(const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                                             const MapGrain& grain, double finest = 0.0) {
   const double resolution = std::max(grain.resolution, finest);
-  return {GridFrame::covering(low, high, resolution), std::max(grain.reach, 4.0 * resolution)};
+  return {GridFrame::covering(low, high, resolution), std::max(grain.reach, kLeastReach * resolution)};
 }
 
 /// The map of a robot that was given none: a square of `grid_size` around a place [m].

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "sim/families.hpp"
 #include "sim/geometry.hpp"
@@ -220,6 +221,59 @@ TEST(Simulation, RecordsWhatAReplayShows) {
     }
   for (std::size_t i = 1; i < recording.events.size(); ++i)
     EXPECT_LE(recording.events[i - 1].time, recording.events[i].time + 0.1);
+}
+
+// The watchdogs of a robot bear the periods that are studied: it would brake between any two plans else.
+TEST(Simulation, LetsSlowPlannersControllersAndPosesDrive) {
+  for (const int slow : {0, 1, 2}) {
+    Scenario scenario = lone_robot(TrackingMode::full);
+    AgentParameters agent;
+    if (slow == 0) agent.team.plan_period = 0.8;
+    if (slow == 1) agent.tracker.control_period = 0.6;
+    if (slow == 2) scenario.simulation.pose_noise.rate = 1.5;
+    if (slow == 2) agent.team.stale_time = 1.6;
+    const host::HostParameters host = host_parameters_for(scenario, agent);
+    EXPECT_GE(host.plan_silence, 3.0 * agent.team.plan_period - 1e-12);
+    EXPECT_GE(host.command_silence, 3.0 * agent.tracker.control_period);
+    EXPECT_GE(host.clock_jump, 3.0 / scenario.simulation.pose_noise.rate);
+    EXPECT_TRUE(contradictions(scenario, agent).empty());
+    const TrialResult result = Simulation{scenario, agent}.run();
+    EXPECT_EQ(result.outcome, TrialOutcome::success) << slow;
+  }
+}
+
+TEST(Simulation, RefusesSettingsWithWhichNoRobotCouldSee) {
+  Scenario scenario = lone_robot(TrackingMode::full);
+  scenario.simulation.trial.computing_delay = 0.4;
+  EXPECT_THROW((Simulation{scenario, AgentParameters{}}), std::invalid_argument);
+}
+
+TEST(Contradictions, OfAScenarioAreOfItsOwnKeys) {
+  Scenario scenario = lone_robot(TrackingMode::full);
+  SensingParameters& sensing = scenario.simulation.sensing;
+  const auto keys = [&] {
+    std::string all;
+    for (const host::Contradiction& found : contradictions(scenario, AgentParameters{}))
+      all += (all.empty() ? "" : " ") + found.key;
+    return all;
+  };
+  EXPECT_EQ(keys(), "");
+  sensing.map_max_distance = 0.1;
+  sensing.map_resolution = 0.05;
+  EXPECT_EQ(keys(), "sensing.map_max_distance");
+  sensing.map_max_distance = 2.0;
+  sensing.map_resolution = 0.4;
+  EXPECT_EQ(keys(), "sensing.map_resolution");
+  sensing.map_resolution = 0.1;
+  scenario.robots.push_back(scenario.robots.front());
+  scenario.simulation.radio.loss = 1.0;
+  EXPECT_EQ(keys(), "radio.loss");
+  sensing.map = MapKnowledge::sensed;  // their scanners show them to each other
+  EXPECT_EQ(keys(), "");
+  sensing.peers_block_beams = false;
+  EXPECT_EQ(keys(), "radio.loss");
+  sensing.peer_detection_range = 3.0;
+  EXPECT_EQ(keys(), "");
 }
 
 TEST(RobotMap, KnowsTheStaticShapesOnlyWhenTheyAreKnown) {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "config/contradiction_report.hpp"
 #include "config/yaml_reader.hpp"
 #include "spf/testing/source_dir.hpp"
 
@@ -16,6 +17,7 @@ namespace spf {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::string report(const std::string& text, const std::vector<Setting>& settings = {}) {
   try {
@@ -95,6 +97,30 @@ TEST(ScenarioFile, MethodSetsAgentParametersAndTheFileOverridesThem) {
   EXPECT_EQ(parameters.team.replanning.emergency_time, 0.5);
   EXPECT_EQ(parameters.robot.radius, 0.25);  // one robot for planner, controller and plant
   EXPECT_EQ(make_trial(config, 0).robot.radius, 0.25);
+}
+
+TEST(ScenarioFile, RefusesSettingsThatContradictEachOther) {
+  EXPECT_EQ(report("family: t2\ntrial:\n  computing_delay: 0.4\n"),
+            "file.yaml:3:20: trial.computing_delay = 0.4 s is longer than agent.team.stale_time = 0.3 s: "
+            "whatever the robot senses would be too old to count");
+  EXPECT_EQ(report("family: t2\nagent: {team: {stale_time: 0.5}}\ntrial: {computing_delay: 0.4}\n"), "");
+}
+
+TEST(ScenarioFile, WarnsOfSettingsThatMayBeMeant) {
+  const auto warnings = [](const std::string& text, const std::vector<Setting>& settings = {}) {
+    std::string all;
+    for (const InputProblem& warning : run_configuration_from_text(text, "file.yaml", settings).warnings)
+      all += warning_text(warning) + "\n";
+    return all;
+  };
+  EXPECT_EQ(warnings("family: t2\nrobot:\n  max_speed: 2\n  max_acceleration: 1.2\n"),
+            "file.yaml:3:14: warning: robot.max_speed = 2 m/s is more than the wheels reach in every "
+            "direction: 1.5 m/s (robot.max_wheel_speed = 1.5 m/s)\n");
+  EXPECT_EQ(warnings("family: t2\nrobot: {max_speed: 2}\ntrial: {tracking: ideal}\n"), "");
+  EXPECT_THAT(warnings("family: swap\n", {{"radio.loss=1"}}),
+              StartsWith("--set: warning: radio.loss = 1 keeps robots from hearing of each other"));
+  EXPECT_EQ(warnings("family: swap\n", {{"radio.loss=1"}, {"robots=1"}}), "");
+  EXPECT_EQ(warnings("family: explicit\nrobots: [{start: [0, 0], goal: [4, 0]}]\nradio: {loss: 1}\n"), "");
 }
 
 TEST(ScenarioFile, DescribesASceneByHand) {
@@ -282,6 +308,7 @@ TEST(ScenarioFiles, AreAllGood) {
     if (entry.path().extension() != ".yaml") continue;
     SCOPED_TRACE(entry.path());
     const RunConfiguration config = read_run_configuration(entry.path().string());
+    for (const InputProblem& warning : config.warnings) ADD_FAILURE() << warning_text(warning);
     EXPECT_FALSE(make_trial(config, 0).robots.empty());
     ++seen;
   }

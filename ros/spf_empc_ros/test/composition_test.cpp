@@ -126,7 +126,7 @@ class CompositionTest : public ::testing::Test {
 
   const spf::sim::Scenario scenario = sensed_swap();
   const spf::AgentParameters agent = spf::sim::agent_parameters_for(scenario, spf::AgentParameters{});
-  const spf::host::HostParameters host = spf::sim::host_parameters_for(scenario);
+  const spf::host::HostParameters host = spf::sim::host_parameters_for(scenario, agent);
   const spf::OccupancyMap map = spf::sim::robot_map(scenario);
   const spf::sim::RobotTask task = scenario.robots[kRobot];
   std::vector<LoggedTick> ticks;
