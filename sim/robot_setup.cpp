@@ -101,6 +101,9 @@ host::HostParameters host_parameters_for(const Scenario& scenario, const AgentPa
   host.jump_distance = std::min(host.jump_distance + spread, 1000.0);
   host.jump_heading = std::min(host.jump_heading + kSigmas * noise.heading_sigma, 6.3);
   host.largest_plan_error = std::min(host.largest_plan_error + spread, 100.0);
+  // A scenario may let robots fall far behind their plans, and must not be stopped before.
+  if (agent.team.reanchor_distance > host.largest_plan_error)
+    host.largest_plan_error = 2.0 * agent.team.reanchor_distance;
   // Robots of a trial think when a pose arrives.
   const double tick = 1.0 / noise.rate;
   const auto bear = [](double& silence, double period) { silence = std::max(silence, kPeriods * period); };

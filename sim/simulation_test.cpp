@@ -242,6 +242,18 @@ TEST(Simulation, LetsSlowPlannersControllersAndPosesDrive) {
   }
 }
 
+// One that never re-anchors is not stopped at the default distance from its plan instead.
+TEST(Simulation, LetsRobotsFallAsFarBehindAsTheyReanchor) {
+  const Scenario scenario = lone_robot(TrackingMode::full);
+  AgentParameters agent;
+  const double usual = host_parameters_for(scenario, agent).largest_plan_error;
+  agent.team.reanchor_distance = 0.5;
+  EXPECT_EQ(host_parameters_for(scenario, agent).largest_plan_error, usual);
+  agent.team.reanchor_distance = 10.0;
+  EXPECT_GT(host_parameters_for(scenario, agent).largest_plan_error, 10.0);
+  EXPECT_TRUE(contradictions(scenario, agent).empty());
+}
+
 TEST(Simulation, RefusesSettingsWithWhichNoRobotCouldSee) {
   Scenario scenario = lone_robot(TrackingMode::full);
   scenario.simulation.trial.computing_delay = 0.4;
