@@ -243,6 +243,21 @@ TEST_F(CampaignProgram, LinksAsManyReplaysAsAskedForAndMakesEachOnce) {
   EXPECT_EQ(text_of(folder_ / "whole" / "report.html").find("adds the others"), std::string::npos);
 }
 
+// A method may be compared on a campaign that does not name it, without a file of one's own.
+TEST_F(CampaignProgram, IsJoinedByAMethodThatWasAskedFor) {
+  ASSERT_EQ(run("experiment small.yaml --trials 1 --method es2,orca_wide --json rows.jsonl").status, 0);
+  std::map<std::string, int> rows;
+  for (const Json& row : rows_in("rows.jsonl"))
+    if (row.contains("method")) ++rows[row.at("method")];
+  EXPECT_EQ(rows, (std::map<std::string, int>{{"es2", 2}, {"orca_wide", 4}}));  // two levels; and `hopeless`
+  ASSERT_EQ(run("experiment small.yaml --trials 1 --method es2 --out joined --quiet").status, 0);
+  EXPECT_THAT(text_of(folder_ / "joined" / "campaign.yaml"),
+              HasSubstr(R"(methods: ["orca", "space_time", "es2"])"));
+  EXPECT_EQ(run("report joined --quiet").status, 0);
+  EXPECT_THAT(run("experiment small.yaml --method spf_emcp").error,
+              HasSubstr("spf_emcp is no method of this campaign; did you mean spf_empc?"));
+}
+
 // Results outlive the version that made them: what it can no longer read is told, and the rest is reported.
 TEST_F(CampaignProgram, ReportsResultsWhoseScenarioCannotBeRead) {
   run_whole();
@@ -342,7 +357,7 @@ TEST_F(CampaignProgram, RefusesBadUsage) {
        {"experiment", "experiment tabel2", "experiment nowhere.yaml", "experiment small.yaml --shard 0/2",
         "experiment small.yaml --shard 3/2", "experiment small.yaml --shard x",
         "experiment small.yaml --resume", "experiment small.yaml --trials 0",
-        "experiment small.yaml --method es2", "experiment small.yaml --level -1",
+        "experiment small.yaml --method es9", "experiment small.yaml --level -1",
         "experiment small.yaml --jobs -1", "report", "report whole --replays x"}) {
     const Finished finished = run(arguments);
     EXPECT_EQ(finished.status, 2) << arguments;
