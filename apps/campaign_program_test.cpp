@@ -374,7 +374,7 @@ TEST_F(CampaignProgram, ReportsFailuresWithReplays) {
   EXPECT_EQ(report.error, "");
   const std::string page = text_of(folder_ / "whole" / "report.html");
   for (const char* words :
-       {"Two robots and a disc", "not home in time, moving", "McNemar", "spf run whole/cells/",
+       {"Two robots and a disc", "not arrived in time, moving", "McNemar", "spf run whole/cells/",
         "report_replays/small_", "<svg ", "2 of 12 failed trials have their replay here"})
     EXPECT_THAT(page, HasSubstr(words));
   EXPECT_EQ(page.find("http://"), std::string::npos);

@@ -174,7 +174,7 @@ TEST_F(Program, TellsASingleRunThatFailed) {
   const Finished single = run("run good.yaml --set trial.time_limit=0.5");
   EXPECT_EQ(single.status, 1) << single.error;
   EXPECT_THAT(single.out, HasSubstr("overtime"));
-  EXPECT_THAT(single.out, HasSubstr("not home in time: robot 0"));
+  EXPECT_THAT(single.out, HasSubstr("not arrived in time: robot 0"));
   const Finished many = run("run good.yaml --set trial.time_limit=0.5 --trials 3 --replays 2 --out results");
   EXPECT_EQ(many.status, 0) << many.error;
   EXPECT_TRUE(fs::exists(folder_ / "results" / "replay_trial_0.html"));
