@@ -30,7 +30,7 @@ inline constexpr double kLeastReach = 4.0;
   return {GridFrame::covering(low, high, resolution), std::max(grain.reach, kLeastReach * resolution)};
 }
 
-/// The map of a robot that was given none: a square of `grid_size` around a place [m].
+/// The map of a robot that was given none: a square of `grid_size` around a position [m].
 [[nodiscard]] inline OccupancyMap sensed_map(const Eigen::Vector2d& centre_world,
                                              const HostParameters& host) {
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * host.grid_size);

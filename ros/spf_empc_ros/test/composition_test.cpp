@@ -58,7 +58,7 @@ std::vector<LoggedTick> of_ros(std::vector<LoggedTick> ticks) {
     tick.input.pose = {held(tick.input.pose.time), held(tick.input.pose.pose_world)};
     for (spf::HeardMessage& message : tick.input.messages)
       message =
-          from_message(to_message(ToldTrajectory{message, {}}, kClock, kFrame), kClock, kFrame)->message;
+          from_message(to_message(StampedTrajectory{message, {}}, kClock, kFrame), kClock, kFrame)->message;
     for (spf::host::SensedWorld& seen : tick.input.seen) {
       seen.observation.time = held(seen.observation.time);
       if (!seen.observation.scan) continue;
@@ -134,8 +134,8 @@ class CompositionTest : public ::testing::Test {
  private:
   [[nodiscard]] static spf::TrajectoryMessage over_wire(const spf::TrajectoryMessage& message,
                                                         std::optional<double> observed) {
-    const ToldTrajectory told{message, observed};
-    return from_message(to_message(told, kClock, kFrame), kClock, kFrame)->message;
+    const StampedTrajectory stamped{message, observed};
+    return from_message(to_message(stamped, kClock, kFrame), kClock, kFrame)->message;
   }
 };
 
