@@ -84,7 +84,7 @@ void RobotAgent::Implementation::make_plan(double now, const std::optional<State
   request.goal_world = *goal;
   request.goal_heading = goal_heading;
   request.world = beliefs.snapshot(now);
-  request.guide = &guide.path();
+  request.guide = &guide.cost_to_go();
   request.goal_cut_off = guide.cut_off();
   request.keep_candidates = keep_candidates;
   commitment.begin_plan(state, request);
