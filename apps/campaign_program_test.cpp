@@ -243,6 +243,48 @@ TEST_F(CampaignProgram, LinksAsManyReplaysAsAskedForAndMakesEachOnce) {
   EXPECT_EQ(text_of(folder_ / "whole" / "report.html").find("adds the others"), std::string::npos);
 }
 
+// A method may be compared on a campaign that does not name it, without a file of one's own.
+TEST_F(CampaignProgram, IsJoinedByAMethodThatWasAskedFor) {
+  ASSERT_EQ(run("experiment small.yaml --trials 1 --method es2,orca_wide --json rows.jsonl").status, 0);
+  std::map<std::string, int> rows;
+  for (const Json& row : rows_in("rows.jsonl"))
+    if (row.contains("method")) ++rows[row.at("method")];
+  EXPECT_EQ(rows, (std::map<std::string, int>{{"es2", 2}, {"orca_wide", 4}}));  // two levels; and `hopeless`
+  ASSERT_EQ(run("experiment small.yaml --trials 1 --method es2 --out joined --quiet").status, 0);
+  EXPECT_THAT(text_of(folder_ / "joined" / "campaign.yaml"),
+              HasSubstr(R"(methods: ["orca", "space_time", "es2"])"));
+  EXPECT_EQ(run("report joined --quiet").status, 0);
+  EXPECT_THAT(run("experiment small.yaml --method spf_emcp").error,
+              HasSubstr("spf_emcp is no method of this campaign; did you mean spf_empc?"));
+}
+
+// Results outlive the version that made them: what it can no longer read is told, and the rest is reported.
+TEST_F(CampaignProgram, ReportsResultsWhoseScenarioCannotBeRead) {
+  run_whole();
+  int spoilt = 0;
+  for (const auto& entry : fs::directory_iterator{folder_ / "whole" / "cells"}) {
+    if (entry.path().filename().string().find("_walk_0_full_hopeless") == std::string::npos) continue;
+    std::string text = text_of(entry.path());
+    const std::size_t group = text.find("\n  space_time:\n");
+    ASSERT_NE(group, std::string::npos) << entry.path();
+    text.insert(text.find('\n', group + 1) + 1, "    sigma_floor: 0.03\n    peer_sigma: 0.02\n");
+    std::ofstream{entry.path()} << text;
+    ++spoilt;
+  }
+  ASSERT_EQ(spoilt, 1);
+  const Finished report = run("report whole --replays all --quiet");
+  EXPECT_EQ(report.status, 0);
+  EXPECT_THAT(report.error, StartsWith("warning: no replays of scene, orca_wide, walk noise at 0 Sigma, full "
+                                       "tracking, hopeless, whose scenario cannot be read: whole"));
+  EXPECT_THAT(report.error, HasSubstr("agent.space_time.sigma_floor = 0.03 is no parameter any more"));
+  EXPECT_THAT(report.error, HasSubstr(" (and 1 more)\n"));
+  EXPECT_EQ(lines_of(folder_ / "stderr").size(), 1u);  // once, although six of its trials failed
+  std::size_t replays = 0;
+  for (const auto& entry : fs::directory_iterator{folder_ / "whole" / "report_replays"})
+    replays += entry.path().extension() == ".html" ? 1 : 0;
+  EXPECT_EQ(replays, 6u);  // of the other cell
+}
+
 /// The very lines of docs/campaigns.md, but for the campaign and the number of parts.
 TEST_F(CampaignProgram, RunsUnderGnuParallelAsDocumented) {
   if (std::system("parallel --version 2>/dev/null | grep -q '^GNU parallel'") != 0)
@@ -315,7 +357,7 @@ TEST_F(CampaignProgram, RefusesBadUsage) {
        {"experiment", "experiment tabel2", "experiment nowhere.yaml", "experiment small.yaml --shard 0/2",
         "experiment small.yaml --shard 3/2", "experiment small.yaml --shard x",
         "experiment small.yaml --resume", "experiment small.yaml --trials 0",
-        "experiment small.yaml --method es2", "experiment small.yaml --level -1",
+        "experiment small.yaml --method es9", "experiment small.yaml --level -1",
         "experiment small.yaml --jobs -1", "report", "report whole --replays x"}) {
     const Finished finished = run(arguments);
     EXPECT_EQ(finished.status, 2) << arguments;
@@ -332,7 +374,7 @@ TEST_F(CampaignProgram, ReportsFailuresWithReplays) {
   EXPECT_EQ(report.error, "");
   const std::string page = text_of(folder_ / "whole" / "report.html");
   for (const char* words :
-       {"Two robots and a disc", "not home in time, moving", "McNemar", "spf run whole/cells/",
+       {"Two robots and a disc", "not arrived in time, moving", "McNemar", "spf run whole/cells/",
         "report_replays/small_", "<svg ", "2 of 12 failed trials have their replay here"})
     EXPECT_THAT(page, HasSubstr(words));
   EXPECT_EQ(page.find("http://"), std::string::npos);

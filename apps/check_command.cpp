@@ -38,12 +38,19 @@ std::string scene_text(const sim::Scenario& scenario) {
 
 void print_summary(const std::string& file, const RunConfiguration& config) {
   const sim::SimulationParameters& simulation = config.simulation;
-  std::cout << file << ": good\n  family " << enum_name(config.family) << ", method " << config.method.name()
-            << ", seed " << config.seed << "\n  " << scene_text(make_trial(config, 0)) << "\n  noise "
+  const std::size_t warnings = config.warnings.size();
+  std::cout << file << ": good"
+            << (warnings == 0
+                    ? ""
+                    : ", with " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings"))
+            << "\n  family " << enum_name(config.family) << ", method " << config.method.name() << ", seed "
+            << config.seed << "\n  " << scene_text(make_trial(config, 0)) << "\n  noise "
             << enum_name(simulation.noise.model) << " at " << simulation.noise.level << " Sigma, map "
             << enum_name(simulation.sensing.map) << ", detections "
             << enum_name(simulation.sensing.detections) << ", tracking "
             << enum_name(simulation.trial.tracking) << "\n";
+  std::cout.flush();
+  print_warnings(config.warnings);
 }
 
 int check(const CheckOptions& options) {
@@ -72,7 +79,8 @@ Verb add_check(CLI::App& program, const MethodTable& methods) {
       "Examples:\n"
       "  spf check scenarios/t2.yaml\n"
       "  spf check my_scene.yaml --set robot.radius=0.5\n"
-      "Exit status: 0 all files are good, 2 one is not; every problem is printed as file:line:column: ...");
+      "Exit status: 0 all files are good, 2 one is not; every problem is printed as file:line:column: ...\n"
+      "Settings that contradict each other, but could be meant, are warned of and keep the status 0.");
   return {app, [options](const std::vector<std::string>&) { return check(*options); }};
 }
 

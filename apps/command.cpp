@@ -1,5 +1,10 @@
 #include "apps/command.hpp"
 
+#include <iostream>
+#include <set>
+
+#include "config/contradiction_report.hpp"
+
 namespace spf {
 
 void ScenarioOptions::add_to(CLI::App& app) {
@@ -27,6 +32,14 @@ std::vector<Setting> ScenarioOptions::to_settings() const {
   add(tracking, "trial.tracking", "--tracking");
   for (const std::string& setting : settings) all.push_back({setting});
   return all;
+}
+
+void print_warnings(const std::vector<InputProblem>& warnings) {
+  std::set<std::string> told;
+  for (const InputProblem& warning : warnings) {
+    const std::string text = warning_text(warning);
+    if (told.insert(text).second) std::cerr << text << "\n";
+  }
 }
 
 }  // namespace spf

@@ -33,6 +33,9 @@ struct ScenarioOptions {
   [[nodiscard]] std::vector<Setting> to_settings() const;
 };
 
+/// On stderr, one a line; the same text once.
+void print_warnings(const std::vector<InputProblem>& warnings);
+
 Verb add_run(CLI::App& program, const MethodTable& methods);
 Verb add_experiment(CLI::App& program, const MethodTable& methods);
 Verb add_report(CLI::App& program, const MethodTable& methods);

@@ -65,8 +65,7 @@ std::vector<Setting> campaign_settings(const ExperimentOptions& options) {
   return all;
 }
 
-CampaignPlan read_plan(const ExperimentOptions& options) {
-  const std::vector<Setting> settings = campaign_settings(options);
+CampaignPlan read_plan(const ExperimentOptions& options, const std::vector<Setting>& settings) {
   std::vector<Setting> scene;
   for (const std::string& setting : options.settings) scene.push_back({setting});
   std::vector<std::string> names;
@@ -86,15 +85,33 @@ CampaignPlan read_plan(const ExperimentOptions& options) {
   return read_campaign(options.campaign, settings, scene, options.known_methods);
 }
 
+/// Whether a campaign has rows of this name.
+bool has_rows_of(const CampaignPlan& plan, const std::string& name) {
+  return std::any_of(plan.cells.begin(), plan.cells.end(),
+                     [&name](const Cell& cell) { return cell.key.method == name; });
+}
+
+/// The campaign; methods that were asked for and that it does not have join it.
+CampaignPlan plan_with_methods(const ExperimentOptions& options) {
+  std::vector<Setting> settings = campaign_settings(options);
+  CampaignPlan plan = read_plan(options, settings);
+  std::vector<std::string> joined = plan.campaign.methods;
+  for (const std::string& wanted : options.methods)
+    if (!has_rows_of(plan, wanted) && options.known_methods.find(wanted) != nullptr) joined.push_back(wanted);
+  if (joined.size() == plan.campaign.methods.size()) return plan;
+  settings.push_back({"methods=" + in_brackets(joined), "--method"});
+  return read_plan(options, settings);
+}
+
 /// Keeps the methods and trackings that were asked for, by the names of the rows.
 void narrow(CampaignPlan& plan, const ExperimentOptions& options) {
   const auto keep = [](const std::vector<std::string>& wanted, const std::string& name) {
     return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
   };
-  std::vector<std::string> names;
+  std::vector<std::string> names = method_names(options.known_methods);
   for (const Cell& cell : plan.cells) names.push_back(cell.key.method);
   for (const std::string& wanted : options.methods)
-    if (std::find(names.begin(), names.end(), wanted) == names.end()) {
+    if (!has_rows_of(plan, wanted)) {
       const std::optional<std::string> meant = closest_name(wanted, names);
       throw InputError{
           {"--method", 0, 0},
@@ -272,8 +289,12 @@ class Experiment {
 int experiment(const ExperimentOptions& options) {
   if (options.resume && options.out.empty())
     throw InputError{{"--resume", 0, 0}, "needs --out, the folder to go on with"};
-  CampaignPlan plan = read_plan(options);
+  CampaignPlan plan = plan_with_methods(options);
   narrow(plan, options);
+  std::vector<InputProblem> warnings;
+  for (const Cell& cell : plan.cells)
+    warnings.insert(warnings.end(), cell.config.warnings.begin(), cell.config.warnings.end());
+  print_warnings(warnings);
   return Experiment{options, std::move(plan)}.run();
 }
 
@@ -294,7 +315,8 @@ Verb add_experiment(CLI::App& program, const MethodTable& methods) {
   app->add_option("--trials", options->trials, "trials of every cell (key trials)")->type_name("N");
   app->add_option("--first", options->first, "number of the first trial (key first)")->type_name("K");
   app->add_option("--seed", options->seed, "seed of everything random (key seed)")->type_name("N");
-  add_words(*app, "--method", options->methods, "only these rows, by method or variant")
+  add_words(*app, "--method", options->methods,
+            "only these rows, by method or variant; a method that the campaign does not name joins it")
       ->type_name("NAME,...");
   add_words(*app, "--noise", options->noise, "white, walk, or both (key noise)")->type_name("MODEL,...");
   add_words(*app, "--level", options->levels, "multiples of Sigma (key levels)")->type_name("S,...");

@@ -115,6 +115,35 @@ TEST_F(Program, ChecksScenarios) {
   EXPECT_THAT(mixed.error, HasSubstr("bad.yaml:1:9: family = none"));
 }
 
+// Settings that contradict each other, but may be meant, are told once and change no exit status.
+TEST_F(Program, WarnsOfSettingsThatContradictEachOther) {
+  write("wide.yaml", std::string{kGood} + "robot:\n  wheel_arm: 0.31\n");
+  const std::string warning =
+      "wide.yaml:6:14: warning: robot.wheel_arm = 0.31 m is longer than robot.radius = 0.3 m: the wheels "
+      "stand out of the disc that is kept free\n";
+  const Finished checked = run("check wide.yaml");
+  EXPECT_EQ(checked.status, 0);
+  EXPECT_THAT(checked.out, StartsWith("wide.yaml: good, with 1 warning\n"));
+  EXPECT_EQ(checked.error, warning);
+  for (const char* verb : {"run wide.yaml --quiet", "run wide.yaml --trials 2 --quiet"}) {
+    const Finished finished = run(verb);
+    EXPECT_EQ(finished.status, 0) << verb;
+    EXPECT_EQ(finished.error, warning) << verb;
+  }
+  write("two.yaml", "name: two\nscenarios: [wide.yaml]\nmethods: [orca, space_time]\ntrials: 1\n");
+  const Finished campaign = run("experiment two.yaml --quiet");
+  EXPECT_EQ(campaign.status, 0);
+  EXPECT_THAT(campaign.error, HasSubstr("wide.yaml:6:14: warning: robot.wheel_arm = 0.31 m"));
+  EXPECT_EQ(lines_of(folder_ / "stderr").size(), 1u);  // not once a cell
+
+  write("wide.yaml", std::string{kGood} + "trial:\n  computing_delay: 0.4\n");
+  for (const char* verb : {"check wide.yaml", "run wide.yaml"}) {
+    const Finished refused = run(verb);
+    EXPECT_EQ(refused.status, 2) << verb;
+    EXPECT_THAT(refused.error, StartsWith("wide.yaml:6:20: trial.computing_delay = 0.4 s is longer than"));
+  }
+}
+
 TEST_F(Program, RunsAScenarioAndKeepsItsResults) {
   const Finished finished = run("run good.yaml --out results/one --json row.jsonl");
   ASSERT_EQ(finished.status, 0) << finished.error << finished.out;
@@ -145,7 +174,7 @@ TEST_F(Program, TellsASingleRunThatFailed) {
   const Finished single = run("run good.yaml --set trial.time_limit=0.5");
   EXPECT_EQ(single.status, 1) << single.error;
   EXPECT_THAT(single.out, HasSubstr("overtime"));
-  EXPECT_THAT(single.out, HasSubstr("not home in time: robot 0"));
+  EXPECT_THAT(single.out, HasSubstr("not arrived in time: robot 0"));
   const Finished many = run("run good.yaml --set trial.time_limit=0.5 --trials 3 --replays 2 --out results");
   EXPECT_EQ(many.status, 0) << many.error;
   EXPECT_TRUE(fs::exists(folder_ / "results" / "replay_trial_0.html"));

@@ -153,6 +153,25 @@ class Report {
     return links;
   }
 
+  /// Results outlive the version that made them, and the files that their scenarios name: what cannot be read
+  /// again has no replay, which is told once.
+  std::optional<Cell> cell_again(const fs::path& scenario, const TrialKey& key) {
+    if (unreadable_.count(scenario) > 0) return std::nullopt;
+    try {
+      return cell_of(read_run_configuration(scenario.string(), {}, options_.methods));
+    } catch (const InputError& error) {
+      progress_.end();
+      const InputProblems& problems = error.problems();
+      const std::size_t others = problems.kept().size() + problems.left_out() - 1;
+      std::cerr << "warning: no replays of " << cell_text(key)
+                << ", whose scenario cannot be read: " << to_string(problems.kept().front().location) << ": "
+                << problems.kept().front().sentence
+                << (others == 0 ? "" : " (and " + std::to_string(others) + " more)") << "\n";
+      unreadable_.insert(scenario);
+      return std::nullopt;
+    }
+  }
+
   /// The file's name contains the trial's digest, so a page of an earlier report is that of the same trial.
   std::string write_replay(const CampaignParts& parts, std::size_t cell, const TrialRecord& record) {
     const fs::path folder = page_.parent_path() / (page_.stem().string() + "_replays");
@@ -163,9 +182,10 @@ class Report {
     std::error_code error;
     if (fs::exists(folder / name, error)) return address;
     progress_.show("replay of trial " + std::to_string(record.key.trial) + " of " + cell_text(record.key));
-    Cell again = cell_of(read_run_configuration(parts.scenarios[cell].string(), {}, options_.methods));
-    again.key = record.key;
-    const std::optional<ReplayPage> page = replay_page(again, record, steady_seconds, interrupted);
+    std::optional<Cell> again = cell_again(parts.scenarios[cell], record.key);
+    if (!again) return "";
+    again->key = record.key;
+    const std::optional<ReplayPage> page = replay_page(*again, record, steady_seconds, interrupted);
     if (!page) return "";
     if (page->went_another_way)
       std::cerr << "warning: trial " << record.key.trial << " of " << cell_text(record.key)
@@ -180,6 +200,7 @@ class Report {
   std::vector<CampaignParts> campaigns_;
   fs::path page_;
   ProgressLine progress_;
+  std::set<fs::path> unreadable_;  // scenarios
 };
 
 int report(const ReportOptions& options) {

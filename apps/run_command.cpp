@@ -175,6 +175,7 @@ int run(const RunOptions& options) {
       read_run_configuration(options.file, options.scenario.to_settings(), options.methods);
   const std::string problem = trials_problem(config, options.first, options.trials.value_or(1));
   if (!problem.empty()) throw InputError{{options.trials ? "--trials" : "--first", 0, 0}, problem};
+  print_warnings(config.warnings);
   Run work{options, std::move(config)};
   return options.trials ? work.many() : work.once();
 }

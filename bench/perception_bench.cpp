@@ -69,7 +69,7 @@ class Onlooker {
  public:
   Onlooker(const spf::sim::Scenario& scenario, int robot, double field_of_view)
       : sensor_{scenario},
-        map_{robot_map(scenario, {})},
+        map_{robot_map(scenario)},
         robot_{robot},
         field_of_view_{field_of_view},
         mapped_{scenario.simulation.sensing.map == spf::sim::MapKnowledge::sensed},
@@ -323,7 +323,7 @@ void sweep_cost(benchmark::State& state) {
   scenario.robots.resize(1);
   scenario.simulation.sensing.beams = 720;
   const spf::sim::RangeSensor sensor{scenario};
-  const spf::OccupancyMap map = robot_map(scenario, {});
+  const spf::OccupancyMap map = robot_map(scenario);
   spf::RandomStream random{4};
   std::vector<spf::sim::SeenDisc> discs;
   std::vector<Eigen::Vector2d> velocities;

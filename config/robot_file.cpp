@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "config/contradiction_report.hpp"
+#include "config/removed_keys.hpp"
 #include "config/renamed_keys.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
@@ -14,6 +16,7 @@ RobotFile read_document(YamlNode root, const MethodTable& methods, InputProblems
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to check further
   if (!require_map(root, problems)) problems.throw_if_any();
   rename_old_keys(root, OldKey::conflicts, problems);
+  refuse_removed_keys(root, problems);
   RobotFile head;
   head.method = MethodChoice{kDefaultMethod, methods};
   const std::vector<std::string> keys = keys_of(head);
@@ -22,6 +25,10 @@ RobotFile read_document(YamlNode root, const MethodTable& methods, InputProblems
   RobotFile file = default_robot_file(head.method, head.robot);
   RobotFile::visit_parameters(file, reader);
   reader.finish();
+  // A refused value has been replaced by a default, which contradicts nothing that was meant.
+  if (problems.empty())
+    report_contradictions(root, host::contradictions(agent_parameters(file), file.host), problems,
+                          file.warnings);
   problems.throw_if_any();
   return file;
 }

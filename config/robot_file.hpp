@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "config/hiding_visitor.hpp"
 #include "config/input_problem.hpp"
@@ -18,6 +19,7 @@ struct RobotFile {
   RobotParameters robot;
   AgentParameters agent;  ///< without its robot: that is `robot`
   host::HostParameters host;
+  std::vector<InputProblem> warnings;  ///< of settings that contradict each other; not among the fields
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -41,8 +43,8 @@ struct RobotFile {
 /// The defaults for a method and a robot: many follow the robot (ScaledUnit).
 [[nodiscard]] RobotFile default_robot_file(const MethodChoice& method, const RobotParameters& robot);
 
-/// Throws InputError with every problem. An empty path gives the defaults. `methods` are those that the file
-/// may name.
+/// Throws InputError with every problem, contradictions that a robot could not drive with among them. An
+/// empty path gives the defaults. `methods` are those that the file may name.
 [[nodiscard]] RobotFile read_robot_file(const std::string& path, const MethodTable& methods = {});
 /// The same from text; `name` stands for the file in messages.
 [[nodiscard]] RobotFile robot_file_from_text(const std::string& text, const std::string& name,

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "config/contradiction_report.hpp"
 #include "config/parameter_table.hpp"
 #include "spf/testing/source_dir.hpp"
 
@@ -43,6 +44,28 @@ TEST(RobotFile, RefusesWithTheMessagesOfTheProgram) {
   EXPECT_NE(problems("robots: 5\n"), "");
   EXPECT_NE(problems("agent: {ideal_tracking: true}\n"), "");
   EXPECT_NE(problems("- 1\n"), "");
+}
+
+TEST(RobotFile, RefusesSettingsThatContradictEachOther) {
+  EXPECT_EQ(problems("agent:\n  team: {plan_period: 0.6}\n"),
+            "robot.yaml:2:23: agent.team.plan_period = 0.6 s is longer than host.plan_silence = 0.5 s: the "
+            "controller would brake between any two plans");
+  // Where the one that is written stands, if only one is.
+  EXPECT_EQ(problems("host:\n  plan_silence: 0.05\n"),
+            "robot.yaml:2:17: agent.team.plan_period = 0.1 s is longer than host.plan_silence = 0.05 s: the "
+            "controller would brake between any two plans");
+}
+
+TEST(RobotFile, WarnsOfSettingsThatMayBeMeant) {
+  const RobotFile file = robot_file_from_text("robot:\n  max_speed: 2\n", "robot.yaml");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  EXPECT_EQ(warning_text(file.warnings.front()),
+            "robot.yaml:2:14: warning: robot.max_speed = 2 m/s is more than the wheels reach in every "
+            "direction: 1.5 m/s (robot.max_wheel_speed = 1.5 m/s)");
+  EXPECT_TRUE(robot_file_from_text("method: space_time\n", "robot.yaml").warnings.empty());
+  // What is refused for itself is not told again for what it contradicts.
+  EXPECT_EQ(problems("robot: {max_speed: 1.6, radius: -1}\n"),
+            "robot.yaml:1:33: robot.radius = -1 must lie in [0.01, 5] m");
 }
 
 TEST(RobotFile, AnEmptyPathGivesTheDefaultsAndAMissingFileIsRefused) {

@@ -24,7 +24,8 @@ std::string paragraph(const std::string& words) {
 }
 
 constexpr const char* kReading =
-    "Success (SR): every robot arrived without any contact. OR: not home in time. CR: a contact. In brackets "
+    "Success (SR): every robot arrived without any contact. OR: not arrived in time. CR: a contact. In "
+    "brackets "
     "the Wilson 95 % interval. Distances, paths and times are mean | minimum | standard deviation over "
     "successful trials (paths and times over their robots); optimiser calls per robot, over all trials. Time "
     "ratio: over the obstacle-free rest-to-rest optimum; read a success rate only together with it, caution "

@@ -117,7 +117,7 @@ TEST(TrialRun, TimesOnlyWithAClock) {
 TEST(TrialRun, SaysWhyATrialFailed) {
   const TrialRecord late = run_trial(cell_of(small_configuration({{"trial.time_limit=1"}})), 0).record;
   EXPECT_EQ(late.outcome, sim::TrialOutcome::timeout);
-  EXPECT_EQ(late.failure.rfind("not home in time: robot 0", 0), 0u) << late.failure;
+  EXPECT_EQ(late.failure.rfind("not arrived in time: robot 0", 0), 0u) << late.failure;
   EXPECT_FALSE(late.robots[0].arrived);
   ASSERT_TRUE(late.cause.has_value());
   EXPECT_EQ(late.cause->robot, 0);

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 
+#include "config/contradiction_report.hpp"
 #include "config/parameter_text.hpp"
 #include "experiments/campaign_run.hpp"
 #include "experiments/paper_figures.hpp"
@@ -137,6 +139,18 @@ TEST(CampaignPresets, AreGoodAndHaveThePapersRows) {
   }
   const std::string file = source_dir() + "/scenarios/experiments/es2_check.yaml";
   EXPECT_EQ(read_campaign(file).cells.size(), 4u);
+}
+
+TEST(Campaign, ShippedOnesContradictThemselvesNowhere) {
+  std::size_t cells = 0;
+  const std::filesystem::path folder{source_dir() + "/scenarios/experiments"};
+  for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator{folder})
+    for (const Cell& cell : read_campaign(entry.path().string()).cells) {
+      ++cells;
+      for (const InputProblem& warning : cell.config.warnings)
+        ADD_FAILURE() << cell_text(cell.key) << ": " << warning_text(warning);
+    }
+  EXPECT_GT(cells, 100u);
 }
 
 // Every trial is in exactly one shard, and every cell has its share in each.

@@ -28,7 +28,7 @@ std::string failure_kind(const TrialRecord& record) {
   }
   const std::string stood =
       record.cause && !record.cause->stand_reason.empty() ? ", " + record.cause->stand_reason : std::string{};
-  return "not home in time" + stood + plan;
+  return "not arrived in time" + stood + plan;
 }
 
 }  // namespace spf

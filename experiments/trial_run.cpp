@@ -37,7 +37,7 @@ std::string timeout_text(const sim::TrialResult& result) {
   for (std::size_t i = 0; i < result.robots.size(); ++i) {
     const sim::RobotResult& robot = result.robots[i];
     if (robot.in_time) continue;
-    text += (text.empty() ? "not home in time: robot " : "; robot ") + std::to_string(i);
+    text += (text.empty() ? "not arrived in time: robot " : "; robot ") + std::to_string(i);
     if (robot.arrived) {
       text += " (late, after " + fixed(robot.travel_time, 1) + " s)";
       continue;

@@ -169,11 +169,11 @@ class Bench {
     result.angle_increment = 2.0 * kPi / kBeams;
     for (int i = 0; i < kBeams; ++i) {
       const double angle = pose.heading + result.angle_min + i * result.angle_increment;
-      const Eigen::Vector2d way{std::cos(angle), std::sin(angle)};
+      const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
       double range = std::numeric_limits<double>::infinity();
       for (const Pillar& pillar : pillars) {
         const Eigen::Vector2d to = pillar.center - pose.position_world;
-        const double along = to.dot(way);
+        const double along = to.dot(direction);
         const double room = pillar.radius * pillar.radius - (to.squaredNorm() - along * along);
         if (along > 0.0 && room >= 0.0) range = std::min(range, along - std::sqrt(room));
       }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kStale = 0.3;            // [s] TeamParameters::stale_time
 constexpr double kReaction = 0.1 + 1e-9;  // [s] within which braking begins, and rounding
-constexpr double kStanding = 0.005;       // [m/s], [m] of a controller that settles on its place
+constexpr double kStanding = 0.005;       // [m/s], [m] of a controller that settles on its position
 constexpr double kTick = Bench::kTick;
 
 /// Brakes in time, at the largest planned acceleration, stands with this reason, and goes on by itself.
@@ -126,7 +126,7 @@ TEST_P(Faults, AJumpIsAFaultUntilItPersistsThenARelocalisation) {
   bench.run(6.0);
   EXPECT_EQ(bench.planner.counts().restarts, 2u);
   EXPECT_GT(bench.speed(), 0.9) << bench.reason() << ", " << to_string(bench.cause());
-  // The way to the goal leads down now; it is driven, not jumped.
+  // The path to the goal leads down now; it is driven, not jumped.
   EXPECT_LT(bench.pose.position_world.y(), before - 0.5);
 }
 

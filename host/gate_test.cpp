@@ -241,7 +241,7 @@ TEST(Faults, ItsOwnSequenceGrowsOverRestartsOfItsAgent) {
   EXPECT_EQ(bench.planner.counts().restarts, 2u);
 }
 
-/// From a place on, at constant velocity.
+/// From a position on, at constant velocity.
 Trajectory leaving(const Eigen::Vector2d& from, const Eigen::Vector2d& velocity, double time) {
   Trajectory trajectory{time};
   QuinticPiece piece;
@@ -342,7 +342,7 @@ TEST(PeerWitness, TrustsWhoIsWhereItSays) {
   EXPECT_FALSE(witness.trusts(5, now - 0.1));  // not heard for long enough
   go(12.0, now, {0.0, 0.5}, 2.7);
   EXPECT_TRUE(witness.trusts(5, now - 0.1));
-  // One through whose place a beam passes.
+  // One through whose position a beam passes.
   go(12.15, now, {0.0, 0.5}, 8.0);
   EXPECT_FALSE(witness.trusts(5, now));
   EXPECT_FALSE(witness.trusts(5, now + 1.7));

@@ -51,7 +51,7 @@ struct HostParameters {
     visit("largest_peer_radius", self.largest_peer_radius, "m", Range{0.01, 100.0},
           "messages of larger peers are malformed");
     visit("largest_peer_sigma", self.largest_peer_sigma, "m", Range{0.0, 100.0},
-          "messages of peers that are less sure of their place are malformed");
+          "messages of peers that are less sure of their position are malformed");
     visit("largest_peer_speed", self.largest_peer_speed, "m/s", Range{0.1, 100.0},
           "messages of faster peers are malformed");
     visit("grid_size", self.grid_size, kMetresByStopping, Range{1.0, 1000.0},

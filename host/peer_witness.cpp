@@ -21,8 +21,8 @@ constexpr double kMiddle = 0.3;     // [1] of its radius: errors of poses and cl
 void PeerWitness::hear(const TrajectoryMessage& message, double now) {
   if (message.trajectory.empty()) return;
   if (known_.count(message.robot_id) == 0 && !make_room(now)) return;  // and is not trusted
-  const auto [place, is_new] = known_.try_emplace(message.robot_id);
-  Record& record = place->second;
+  const auto [entry, is_new] = known_.try_emplace(message.robot_id);
+  Record& record = entry->second;
   if (is_new || now - record.last_heard > kSilence) {
     record.first_heard = now;
     record.jumps = 0.0;
@@ -50,25 +50,25 @@ void PeerWitness::see(const RangeScan& scan, const Pose2& pose_world, double tim
                       const std::vector<Peer>& peers) {
   if (scan.ranges.empty() || scan.angle_increment == 0.0) return;
   for (const Peer& peer : peers) {
-    const auto place = known_.find(peer.robot_id);
-    if (place == known_.end()) continue;
-    const Eigen::Vector2d way = peer.position(time) - pose_world.position_world;
-    const double distance = way.norm();
+    const auto entry = known_.find(peer.robot_id);
+    if (entry == known_.end()) continue;
+    const Eigen::Vector2d offset = peer.position(time) - pose_world.position_world;
+    const double distance = offset.norm();
     if (distance <= peer.radius || distance + peer.radius > scan.max_range) continue;
-    double angle = wrap_angle(std::atan2(way.y(), way.x()) - pose_world.heading - scan.angle_min);
+    double angle = wrap_angle(std::atan2(offset.y(), offset.x()) - pose_world.heading - scan.angle_min);
     if (angle / scan.angle_increment < -0.5) angle += scan.angle_increment > 0.0 ? 2.0 * kPi : -2.0 * kPi;
     const double beam = std::round(angle / scan.angle_increment);
     if (!(beam >= 0.0 && beam < static_cast<double>(scan.ranges.size()))) continue;  // not in view
     const double miss = std::abs(beam * scan.angle_increment - angle) * distance;
     const bool passes = scan.ranges[static_cast<std::size_t>(beam)] > distance + peer.radius;
-    if (miss < kMiddle * peer.radius && passes) place->second.contradicted = time;
+    if (miss < kMiddle * peer.radius && passes) entry->second.contradicted = time;
   }
 }
 
 bool PeerWitness::trusts(int robot_id, double now) const {
-  const auto place = known_.find(robot_id);
-  if (place == known_.end()) return false;
-  const Record& record = place->second;
+  const auto entry = known_.find(robot_id);
+  if (entry == known_.end()) return false;
+  const Record& record = entry->second;
   return now - record.first_heard >= kProbation && record.jumps <= kMostJumps &&
          now - record.contradicted >= kDoubt;
 }

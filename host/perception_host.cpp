@@ -18,9 +18,7 @@ void PerceptionHost::meet_clock_jump() {
 
 ObservationVerdict PerceptionHost::judge(double time, double last, double now) const {
   if (!std::isfinite(time)) return ObservationVerdict::malformed;
-  if (time > now + clock_error_) return ObservationVerdict::future;
-  if (time <= last || now - time > stale_time_) return ObservationVerdict::late;
-  return ObservationVerdict::accepted;
+  return time_verdict(time, now, stale_time_, clock_error_, time > last);
 }
 
 bool PerceptionHost::refuse(ObservationVerdict verdict) {

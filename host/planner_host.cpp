@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host/contradictions.hpp"
 #include "host/plan_check.hpp"
 #include "host/robot_map.hpp"
 #include "host/scan_check.hpp"
@@ -25,6 +26,14 @@ const char* to_string(ObservationVerdict verdict) {
   return "?";
 }
 
+ObservationVerdict time_verdict(double observed, double now, double stale_time, double clock_error,
+                                bool newer) {
+  const Timeliness of_time = timeliness(observed, now, stale_time, clock_error);
+  if (of_time == Timeliness::ahead) return ObservationVerdict::future;
+  if (of_time == Timeliness::late || !newer) return ObservationVerdict::late;
+  return ObservationVerdict::accepted;
+}
+
 PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostParameters& host,
                          std::uint32_t first_sequence)
     : robot_id_{robot_id},
@@ -32,7 +41,9 @@ PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostP
       host_{validated(host)},
       watchdog_{host_, agent_parameters_.team.stale_time},
       standing_{host_, agent_parameters_.robot},
-      sequence_{first_sequence} {}
+      sequence_{first_sequence} {
+  refuse_contradictions(contradictions(agent_parameters_, host_));
+}
 
 void PlannerHost::set_map(OccupancyMap map) {
   map_ = std::move(map);
@@ -51,13 +62,9 @@ ObservationVerdict PlannerHost::judge(const SensedWorld& sensed, double now) con
   if (!std::isfinite(observation.time) || !sensible(observation.detections) ||
       (observation.scan && !sensible(*observation.scan)))
     return ObservationVerdict::malformed;
-  // What the agent would not take in must not pass for a look around.
-  if (observation.time > now + std::min(host_.clock_error, kClockError)) return ObservationVerdict::future;
   const bool newer = (observation.scan && observation.time > last_scan_time_) ||
                      (sensed.has_detections && observation.time > last_detections_time_);
-  if (!newer || observation.time < now - agent_parameters_.team.stale_time - kTimeTolerance)
-    return ObservationVerdict::late;
-  return ObservationVerdict::accepted;
+  return time_verdict(observation.time, now, agent_parameters_.team.stale_time, host_.clock_error, newer);
 }
 
 ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, double now,
@@ -164,7 +171,7 @@ void PlannerHost::start_when_ready(double now, const Localiser& localiser) {
                      localiser.pose_age(now) <= agent_parameters_.team.stale_time && standing_.stands(now);
   if (!ready) return;
   const Pose2 here = standing_.last()->pose_world;
-  if (!map_) map_ = sensed_map(here.position_world, host_, agent_parameters_.occupancy);
+  if (!map_) map_ = sensed_map(here.position_world, host_);
   make_agent(here, now);
 }
 

@@ -26,6 +26,10 @@ enum class ObservationVerdict {
 };
 [[nodiscard]] const char* to_string(ObservationVerdict verdict);
 
+/// The verdict on the finite time of an observation (`timeliness`); `newer` than the last of its kind.
+[[nodiscard]] ObservationVerdict time_verdict(double observed, double now, double stale_time,
+                                              double clock_error, bool newer);
+
 /// What was sensed, and of what: a list of no obstacles may mean "none there" or "nobody looked".
 struct SensedWorld {
   Observation observation;
@@ -64,7 +68,8 @@ struct PlannerCounts {
 class PlannerHost {
  public:
   /// `first_sequence` numbers the first message: let it grow from process to process (a clock does), and
-  /// peers believe a restarted robot at once. Throws std::invalid_argument on parameters out of range.
+  /// peers believe a restarted robot at once. Throws std::invalid_argument on parameters out of range, and on
+  /// those that contradict each other (contradictions.hpp).
   PlannerHost(int robot_id, const AgentParameters& agent, const HostParameters& host,
               std::uint32_t first_sequence = 0);
 

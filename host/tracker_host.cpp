@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/contradictions.hpp"
 #include "host/plan_check.hpp"
 #include "spf/planning/braking.hpp"
 
@@ -37,7 +38,9 @@ TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostP
       clock_error_{validated(host).clock_error},
       kinematics_{robot_},
       controller_{agent.tracker, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
-      watchdog_{host, agent.team.stale_time} {}
+      watchdog_{host, agent.team.stale_time} {
+  refuse_contradictions(contradictions(agent, host));
+}
 
 void TrackerHost::note_pose(PoseVerdict verdict) {
   if (verdict != PoseVerdict::relocalised) return;

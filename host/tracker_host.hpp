@@ -36,7 +36,7 @@ struct TrackerCommand {
 
 class TrackerHost {
  public:
-  /// Throws std::invalid_argument on parameters out of range.
+  /// As PlannerHost.
   TrackerHost(int robot_id, const AgentParameters& agent, const HostParameters& host);
 
   PlanVerdict add_plan(const TrajectoryMessage& message, double now);

@@ -94,8 +94,8 @@ class CompositionTest : public ::testing::Test {
 
   const Scenario scenario = sensed_swap();
   const AgentParameters agent = agent_parameters_for(scenario, AgentParameters{});
-  host::HostParameters host = host_parameters_for(scenario);
-  const OccupancyMap map = robot_map(scenario, agent.occupancy);
+  host::HostParameters host = host_parameters_for(scenario, agent);
+  const OccupancyMap map = robot_map(scenario);
   const RobotTask task = scenario.robots[kRobot];
 
  private:

@@ -61,7 +61,7 @@ TEST(FleetSlow, TakesAtMost300KilobytesARobotBesideTheMap) {
   const AllocationGuard of_map;
   long map_bytes = 0;
   {
-    const OccupancyMap map = robot_map(scenario, AgentParameters{}.occupancy);
+    const OccupancyMap map = robot_map(scenario);
     map_bytes = of_map.bytes();
   }
   EXPECT_GT(map_bytes, 4'000'000);  // it is worth sharing

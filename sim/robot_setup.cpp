@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/robot_map.hpp"
 #include "sim/simulation.hpp"
@@ -47,15 +48,35 @@ Box extent_of(const Scenario& scenario) {
   return extent;
 }
 
+host::OperatingConditions operating_conditions(const Scenario& scenario) {
+  const SimulationParameters& simulation = scenario.simulation;
+  const SensingParameters& sensing = simulation.sensing;
+  host::OperatingConditions conditions;
+  conditions.by_wheels = simulation.trial.tracking == TrackingMode::full;
+  conditions.sensing_range = sensing.range;
+  conditions.sensing_rate = sensing.rate;
+  if (conditions.by_wheels) conditions.pose_rate = simulation.pose_noise.rate;
+  conditions.computing_delay = simulation.trial.computing_delay;
+  conditions.has_peers = scenario.robots.size() > 1;
+  conditions.peer_sight = sensing.peer_detection_range;
+  const bool scans = sensing.map == MapKnowledge::sensed || sensing.detections == DetectionQuality::scan;
+  if (scans && sensing.peers_block_beams)
+    conditions.peer_sight = std::max(conditions.peer_sight, sensing.range);
+  conditions.message_range = simulation.radio.range;
+  conditions.message_loss = simulation.radio.loss;
+  conditions.message_delay = simulation.radio.delay;
+  return conditions;
+}
+
 }  // namespace
 
-OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& parameters) {
+OccupancyMap robot_map(const Scenario& scenario) {
   const SensingParameters& sensing = scenario.simulation.sensing;
   const Box extent = extent_of(scenario);
   const Eigen::Vector2d size = extent.high - extent.low;
   const host::MapGrain grain{sensing.map_resolution, sensing.map_max_distance};
   OccupancyMap map =
-      host::empty_map(extent.low, extent.high, grain, parameters, std::sqrt(size.x() * size.y() / kMaxNodes));
+      host::empty_map(extent.low, extent.high, grain, std::sqrt(size.x() * size.y() / kMaxNodes));
   if (scenario.border) map.add_border(scenario.border->low, scenario.border->high);
   if (sensing.map == MapKnowledge::sensed) {
     map.mark_unexplored();
@@ -85,8 +106,9 @@ AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters a
   return agent;
 }
 
-host::HostParameters host_parameters_for(const Scenario& scenario) {
+host::HostParameters host_parameters_for(const Scenario& scenario, const AgentParameters& agent) {
   constexpr double kSigmas = 10.0;  // of the difference of two poses: never in a trial's 10^5 poses
+  constexpr double kPeriods = 3.0;  // that a watchdog bears
   const SimulationParameters& simulation = scenario.simulation;
   const PoseNoiseParameters& noise = simulation.pose_noise;
   host::HostParameters host = scaled(host::HostParameters{}, RobotScale{scenario.robot});
@@ -94,6 +116,15 @@ host::HostParameters host_parameters_for(const Scenario& scenario) {
   host.jump_distance = std::min(host.jump_distance + spread, 1000.0);
   host.jump_heading = std::min(host.jump_heading + kSigmas * noise.heading_sigma, 6.3);
   host.largest_plan_error = std::min(host.largest_plan_error + spread, 100.0);
+  // A scenario may let robots fall far behind their plans, and must not be stopped before.
+  if (agent.team.reanchor_distance > host.largest_plan_error)
+    host.largest_plan_error = 2.0 * agent.team.reanchor_distance;
+  // Robots of a trial think when a pose arrives.
+  const double tick = 1.0 / noise.rate;
+  const auto bear = [](double& silence, double period) { silence = std::max(silence, kPeriods * period); };
+  bear(host.plan_silence, std::max(agent.team.plan_period, tick));
+  bear(host.command_silence, std::max(agent.tracker.control_period, tick));
+  bear(host.clock_jump, tick);
   host.map_resolution = simulation.sensing.map_resolution;
   host.map_reach = simulation.sensing.map_max_distance;
   const bool scans_alone = simulation.sensing.detections == DetectionQuality::scan;
@@ -101,6 +132,19 @@ host::HostParameters host_parameters_for(const Scenario& scenario) {
   host.relies_on_obstacles = !scans_alone && simulation.trial.tracking == TrackingMode::full;
   host.trusts_peers = true;
   return host;
+}
+
+std::vector<host::Contradiction> contradictions(const Scenario& scenario, const AgentParameters& agent) {
+  const AgentParameters parameters = agent_parameters_for(scenario, agent);
+  std::vector<host::Contradiction> kept;
+  for (host::Contradiction& found : host::contradictions(
+           parameters, host_parameters_for(scenario, parameters), operating_conditions(scenario))) {
+    if (found.key == "host.map_reach") found.key = "sensing.map_max_distance";
+    if (found.key == "host.map_resolution") found.key = "sensing.map_resolution";
+    // The rest of the host is derived, and nothing that a scenario sets.
+    if (found.key.rfind("host.", 0) != 0) kept.push_back(std::move(found));
+  }
+  return kept;
 }
 
 }  // namespace spf::sim

@@ -82,13 +82,14 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
       kinematics{scenario.robot},
       radio{scenario},
       meter{scenario.robots.size()} {
-  AgentParameters parameters = agent_parameters_for(scenario, agent);
-  const OccupancyMap map = robot_map(scenario, parameters.occupancy);
+  const AgentParameters parameters = agent_parameters_for(scenario, agent);
+  host::refuse_contradictions(contradictions(scenario, parameters));
+  const OccupancyMap map = robot_map(scenario);
   if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame());
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
     if (listener != nullptr) listeners.push_back(listener);
   const std::size_t count = scenario.robots.size();
-  const host::HostParameters hosting = host_parameters_for(scenario);
+  const host::HostParameters hosting = host_parameters_for(scenario, parameters);
   const host::Motion motion = ideal() ? host::Motion::as_planned : host::Motion::by_wheels;
   robots.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {

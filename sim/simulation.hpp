@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
+#include "host/contradictions.hpp"
 #include "host/host_parameters.hpp"
 #include "sim/scenario.hpp"
 #include "sim/trial_listener.hpp"
@@ -50,7 +52,7 @@ class Simulation {
 };
 
 /// The map that robots are given: its frame, the border, and the static shapes when they are known.
-[[nodiscard]] OccupancyMap robot_map(const Scenario& scenario, const OccupancyParameters& parameters);
+[[nodiscard]] OccupancyMap robot_map(const Scenario& scenario);
 
 /// The parameters an agent gets in this scenario: the robot's and the rules of the trial over the fleet's.
 [[nodiscard]] AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent);
@@ -58,7 +60,13 @@ class Simulation {
 /// What a robot's host reckons with in this scenario. Its guards are up, and as wide as the scenario's own
 /// noise of poses asks for: trials study noise that would be a fault elsewhere. Robots of a trial are
 /// honest, so peers are taken at their word, as the experiments assume; observations always say what moves
-/// around.
-[[nodiscard]] host::HostParameters host_parameters_for(const Scenario& scenario);
+/// around. Watchdogs bear three periods of what they wait for, so that slow planners, controllers and poses
+/// can be studied.
+[[nodiscard]] host::HostParameters host_parameters_for(const Scenario& scenario,
+                                                       const AgentParameters& agent);
+
+/// What contradicts each other in a scenario with these agents. Keys are those of scenario files.
+[[nodiscard]] std::vector<host::Contradiction> contradictions(const Scenario& scenario,
+                                                              const AgentParameters& agent);
 
 }  // namespace spf::sim

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "sim/families.hpp"
 #include "sim/geometry.hpp"
@@ -222,18 +223,83 @@ TEST(Simulation, RecordsWhatAReplayShows) {
     EXPECT_LE(recording.events[i - 1].time, recording.events[i].time + 0.1);
 }
 
+// The watchdogs of a robot bear the periods that are studied: it would brake between any two plans else.
+TEST(Simulation, LetsSlowPlannersControllersAndPosesDrive) {
+  for (const int slow : {0, 1, 2}) {
+    Scenario scenario = lone_robot(TrackingMode::full);
+    AgentParameters agent;
+    if (slow == 0) agent.team.plan_period = 0.8;
+    if (slow == 1) agent.tracker.control_period = 0.6;
+    if (slow == 2) scenario.simulation.pose_noise.rate = 1.5;
+    if (slow == 2) agent.team.stale_time = 1.6;
+    const host::HostParameters host = host_parameters_for(scenario, agent);
+    EXPECT_GE(host.plan_silence, 3.0 * agent.team.plan_period - 1e-12);
+    EXPECT_GE(host.command_silence, 3.0 * agent.tracker.control_period);
+    EXPECT_GE(host.clock_jump, 3.0 / scenario.simulation.pose_noise.rate);
+    EXPECT_TRUE(contradictions(scenario, agent).empty());
+    const TrialResult result = Simulation{scenario, agent}.run();
+    EXPECT_EQ(result.outcome, TrialOutcome::success) << slow;
+  }
+}
+
+// One that never re-anchors is not stopped at the default distance from its plan instead.
+TEST(Simulation, LetsRobotsFallAsFarBehindAsTheyReanchor) {
+  const Scenario scenario = lone_robot(TrackingMode::full);
+  AgentParameters agent;
+  const double usual = host_parameters_for(scenario, agent).largest_plan_error;
+  agent.team.reanchor_distance = 0.5;
+  EXPECT_EQ(host_parameters_for(scenario, agent).largest_plan_error, usual);
+  agent.team.reanchor_distance = 10.0;
+  EXPECT_GT(host_parameters_for(scenario, agent).largest_plan_error, 10.0);
+  EXPECT_TRUE(contradictions(scenario, agent).empty());
+}
+
+TEST(Simulation, RefusesSettingsWithWhichNoRobotCouldSee) {
+  Scenario scenario = lone_robot(TrackingMode::full);
+  scenario.simulation.trial.computing_delay = 0.4;
+  EXPECT_THROW((Simulation{scenario, AgentParameters{}}), std::invalid_argument);
+}
+
+TEST(Contradictions, OfAScenarioAreOfItsOwnKeys) {
+  Scenario scenario = lone_robot(TrackingMode::full);
+  SensingParameters& sensing = scenario.simulation.sensing;
+  const auto keys = [&] {
+    std::string all;
+    for (const host::Contradiction& found : contradictions(scenario, AgentParameters{}))
+      all += (all.empty() ? "" : " ") + found.key;
+    return all;
+  };
+  EXPECT_EQ(keys(), "");
+  sensing.map_max_distance = 0.1;
+  sensing.map_resolution = 0.05;
+  EXPECT_EQ(keys(), "sensing.map_max_distance");
+  sensing.map_max_distance = 2.0;
+  sensing.map_resolution = 0.4;
+  EXPECT_EQ(keys(), "sensing.map_resolution");
+  sensing.map_resolution = 0.1;
+  scenario.robots.push_back(scenario.robots.front());
+  scenario.simulation.radio.loss = 1.0;
+  EXPECT_EQ(keys(), "radio.loss");
+  sensing.map = MapKnowledge::sensed;  // their scanners show them to each other
+  EXPECT_EQ(keys(), "");
+  sensing.peers_block_beams = false;
+  EXPECT_EQ(keys(), "radio.loss");
+  sensing.peer_detection_range = 3.0;
+  EXPECT_EQ(keys(), "");
+}
+
 TEST(RobotMap, KnowsTheStaticShapesOnlyWhenTheyAreKnown) {
   Scenario scenario = lone_robot(TrackingMode::full);
   scenario.boxes = {square({2.0, 2.0}, 1.0)};
   scenario.discs = {{{-2.0, -2.0}, 0.5}};
   scenario.walls = {{{-3.0, 5.0}, {3.0, 6.0}}};
-  const OccupancyMap known = robot_map(scenario, {});
+  const OccupancyMap known = robot_map(scenario);
   EXPECT_NEAR(known.distance({2.0, 3.2}), 0.7, 1e-5);
   EXPECT_NEAR(known.distance({-2.0, -3.0}), 0.5, 1e-2);
   EXPECT_NEAR(known.distance({0.0, 5.1}), distance_to_segment({0.0, 5.1}, scenario.walls[0]), 5e-3);
   EXPECT_NEAR(known.distance({9.5, 0.0}), 0.5, 1e-5);
   scenario.simulation.sensing.map = MapKnowledge::sensed;
-  const OccupancyMap empty = robot_map(scenario, {});
+  const OccupancyMap empty = robot_map(scenario);
   EXPECT_NEAR(empty.distance({2.0, 2.0}), empty.max_distance(), 1e-5);
   EXPECT_NEAR(empty.distance({9.5, 0.0}), 0.5, 1e-5);  // the border is always known
 }

@@ -6,11 +6,14 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "config/contradiction_report.hpp"
 #include "config/parameter_text.hpp"
+#include "config/removed_keys.hpp"
 #include "config/renamed_keys.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
 #include "sim/pedestrian_scene.hpp"
+#include "sim/simulation.hpp"
 #include "spf/math/random_stream.hpp"
 #include "spf/robot/robot_scale.hpp"
 #include "study/crowd_file.hpp"
@@ -169,6 +172,17 @@ void read_recording(const YamlNode& root, RunConfiguration& config, InputProblem
   if (!error) config.crowd = absolute.lexically_normal().string();
 }
 
+/// Whether the settings go together. What a family draws does not matter to that.
+void check_settings(const YamlNode& root, RunConfiguration& config, InputProblems& problems) {
+  sim::Scenario scenario;
+  scenario.robot = config.robot;
+  scenario.simulation = config.simulation;
+  scenario.robots.resize(config.family.drawn ? static_cast<std::size_t>(config.layout.robots)
+                                             : config.scene.robots.size());
+  report_contradictions(root, sim::contradictions(scenario, agent_parameters(config)), problems,
+                        config.warnings);
+}
+
 RunConfiguration read_document(YamlNode root, const std::vector<Setting>& settings,
                                const MethodTable& methods, InputProblems problems) {
   if (root.kind == YamlKind::nothing) problems.throw_if_any();  // there is no document to check further
@@ -177,6 +191,7 @@ RunConfiguration read_document(YamlNode root, const std::vector<Setting>& settin
     apply_setting(root, setting.assignment, setting.source, problems);
     rename_old_keys(root, OldKey::replaces, problems);
   }
+  refuse_removed_keys(root, problems);
   if (!require_map(root, problems)) problems.throw_if_any();
   RunConfiguration config = read_keys(root, methods, problems);
   if (has_recording(config)) read_recording(root, config, problems);
@@ -184,6 +199,8 @@ RunConfiguration read_document(YamlNode root, const std::vector<Setting>& settin
     check_explicit(root, config, problems);
   else if (problems.empty())
     check_drawn(root, config, problems);
+  // A refused value has been replaced by a default, which contradicts nothing that was meant.
+  if (problems.empty()) check_settings(root, config, problems);
   problems.throw_if_any();
   return config;
 }

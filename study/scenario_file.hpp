@@ -154,7 +154,8 @@ struct RunConfiguration {
   ExplicitScene scene;                                   ///< of an explicit one
   RobotParameters robot;
   sim::SimulationParameters simulation;
-  AgentParameters agent;  ///< without its robot: that is `robot`
+  AgentParameters agent;               ///< without its robot: that is `robot`
+  std::vector<InputProblem> warnings;  ///< of settings that contradict each other; not among the fields
 
   /// All keys, in the order in which they are written.
   template <class Self, class Visitor>
@@ -187,7 +188,8 @@ struct Setting {
 };
 
 /// Reads a file and applies settings over it. Throws InputError with every problem: of form, of single
-/// values, and of the scene (robots inside obstacles, ...). `methods` are those that it may name.
+/// values, of those that contradict each other, and of the scene (robots inside obstacles, ...). `methods`
+/// are those that it may name.
 [[nodiscard]] RunConfiguration read_run_configuration(const std::string& path,
                                                       const std::vector<Setting>& settings = {},
                                                       const MethodTable& methods = {});

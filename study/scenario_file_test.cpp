@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "config/contradiction_report.hpp"
 #include "config/yaml_reader.hpp"
 #include "spf/testing/source_dir.hpp"
 
@@ -16,6 +17,7 @@ namespace spf {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::string report(const std::string& text, const std::vector<Setting>& settings = {}) {
   try {
@@ -97,16 +99,28 @@ TEST(ScenarioFile, MethodSetsAgentParametersAndTheFileOverridesThem) {
   EXPECT_EQ(make_trial(config, 0).robot.radius, 0.25);
 }
 
-// What once was a parameter and is a constant now: a file that still sets it is told so, not obeyed in
-// silence.
-TEST(ScenarioFile, RefusesKeysOfParametersThatAreConstantsNow) {
-  const std::string found = report(
-      "family: t2\nrobot: {wheel_count: 3}\nagent:\n  team: {keep_candidates: true}\n"
-      "  planner: {optimizer: {memory: 8}}\n  space_time: {sigma_floor: 0.1}\n");
-  EXPECT_THAT(found, HasSubstr("file.yaml:2:9: robot.wheel_count = 3 is not a known key"));
-  EXPECT_THAT(found, HasSubstr("file.yaml:4:10: agent.team.keep_candidates = true is not a known key"));
-  EXPECT_THAT(found, HasSubstr("agent.planner.optimizer"));
-  EXPECT_THAT(found, HasSubstr("file.yaml:6:16: agent.space_time.sigma_floor = 0.1 is not a known key"));
+TEST(ScenarioFile, RefusesSettingsThatContradictEachOther) {
+  EXPECT_EQ(report("family: t2\ntrial:\n  computing_delay: 0.4\n"),
+            "file.yaml:3:20: trial.computing_delay = 0.4 s is longer than agent.team.stale_time = 0.3 s: "
+            "whatever the robot senses would be too old to count");
+  EXPECT_EQ(report("family: t2\nagent: {team: {stale_time: 0.5}}\ntrial: {computing_delay: 0.4}\n"), "");
+}
+
+TEST(ScenarioFile, WarnsOfSettingsThatMayBeMeant) {
+  const auto warnings = [](const std::string& text, const std::vector<Setting>& settings = {}) {
+    std::string all;
+    for (const InputProblem& warning : run_configuration_from_text(text, "file.yaml", settings).warnings)
+      all += warning_text(warning) + "\n";
+    return all;
+  };
+  EXPECT_EQ(warnings("family: t2\nrobot:\n  max_speed: 2\n  max_acceleration: 1.2\n"),
+            "file.yaml:3:14: warning: robot.max_speed = 2 m/s is more than the wheels reach in every "
+            "direction: 1.5 m/s (robot.max_wheel_speed = 1.5 m/s)\n");
+  EXPECT_EQ(warnings("family: t2\nrobot: {max_speed: 2}\ntrial: {tracking: ideal}\n"), "");
+  EXPECT_THAT(warnings("family: swap\n", {{"radio.loss=1"}}),
+              StartsWith("--set: warning: radio.loss = 1 keeps robots from hearing of each other"));
+  EXPECT_EQ(warnings("family: swap\n", {{"radio.loss=1"}, {"robots=1"}}), "");
+  EXPECT_EQ(warnings("family: explicit\nrobots: [{start: [0, 0], goal: [4, 0]}]\nradio: {loss: 1}\n"), "");
 }
 
 TEST(ScenarioFile, DescribesASceneByHand) {
@@ -294,6 +308,7 @@ TEST(ScenarioFiles, AreAllGood) {
     if (entry.path().extension() != ".yaml") continue;
     SCOPED_TRACE(entry.path());
     const RunConfiguration config = read_run_configuration(entry.path().string());
+    for (const InputProblem& warning : config.warnings) ADD_FAILURE() << warning_text(warning);
     EXPECT_FALSE(make_trial(config, 0).robots.empty());
     ++seen;
   }

@@ -64,7 +64,7 @@ await check("failures open by keyboard and tell cause and command", desktop, asy
   await page.keyboard.press("Enter");
   assert.equal(await details.evaluate((element) => element.open), true);
   const text = await details.locator("tbody tr").first().textContent();
-  assert.match(text, /robot \d+ .*touched|not home/);
+  assert.match(text, /robot \d+ .*touched|not arrived/);
   assert.match(text, /last plan/);
   assert.match(text, /spf run table2\/cells\/.*\.yaml --first 100\d\d/);
 });

@@ -26,10 +26,10 @@ Assignment::Assignment() {
 
 void Assignment::solve(int rows, int columns, const std::vector<AssignmentPair>& pairs,
                        double unassigned_cost) {
-  column_of_row_.assign(at(rows), -1);
-  row_of_column_.assign(at(columns), -1);
-  local_row_.assign(at(rows), -1);
-  local_column_.assign(at(columns), -1);
+  column_of_row_.assign(as_index(rows), -1);
+  row_of_column_.assign(as_index(columns), -1);
+  local_row_.assign(as_index(rows), -1);
+  local_column_.assign(as_index(columns), -1);
   pairs_.assign(pairs.begin(), pairs.end());
   part(rows, columns, unassigned_cost);
   std::size_t first = 0;
@@ -43,9 +43,9 @@ void Assignment::solve(int rows, int columns, const std::vector<AssignmentPair>&
 }
 
 int Assignment::root_of(int node) {
-  while (parent_[at(node)] != node) {
-    parent_[at(node)] = parent_[at(parent_[at(node)])];
-    node = parent_[at(node)];
+  while (parent_[as_index(node)] != node) {
+    parent_[as_index(node)] = parent_[as_index(parent_[as_index(node)])];
+    node = parent_[as_index(node)];
   }
   return node;
 }
@@ -54,13 +54,14 @@ int Assignment::root_of(int node) {
 void Assignment::part(int rows, int columns, double unassigned_cost) {
   const auto too_dear = [&](const AssignmentPair& pair) { return !(pair.cost < unassigned_cost); };
   pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), too_dear), pairs_.end());
-  parent_.resize(at(rows + columns));
-  for (int node = 0; node < rows + columns; ++node) parent_[at(node)] = node;
-  for (const AssignmentPair& pair : pairs_) parent_[at(root_of(rows + pair.column))] = root_of(pair.row);
-  for (int node = 0; node < rows + columns; ++node) parent_[at(node)] = root_of(node);
+  parent_.resize(as_index(rows + columns));
+  for (int node = 0; node < rows + columns; ++node) parent_[as_index(node)] = node;
+  for (const AssignmentPair& pair : pairs_)
+    parent_[as_index(root_of(rows + pair.column))] = root_of(pair.row);
+  for (int node = 0; node < rows + columns; ++node) parent_[as_index(node)] = root_of(node);
   std::sort(pairs_.begin(), pairs_.end(), [this](const AssignmentPair& a, const AssignmentPair& b) {
-    const int root_a = parent_[at(a.row)];
-    const int root_b = parent_[at(b.row)];
+    const int root_a = parent_[as_index(a.row)];
+    const int root_b = parent_[as_index(b.row)];
     if (root_a != root_b) return root_a < root_b;
     return a.row != b.row ? a.row < b.row : a.column < b.column;
   });
@@ -74,9 +75,9 @@ void Assignment::match_greedily(std::size_t first, std::size_t last) {
     return a.row != b.row ? a.row < b.row : a.column < b.column;
   });
   for (auto pair = begin; pair != end; ++pair) {
-    if (column_of_row_[at(pair->row)] >= 0 || row_of_column_[at(pair->column)] >= 0) continue;
-    column_of_row_[at(pair->row)] = pair->column;
-    row_of_column_[at(pair->column)] = pair->row;
+    if (column_of_row_[as_index(pair->row)] >= 0 || row_of_column_[as_index(pair->column)] >= 0) continue;
+    column_of_row_[as_index(pair->row)] = pair->column;
+    row_of_column_[as_index(pair->column)] = pair->row;
   }
 }
 
@@ -84,8 +85,8 @@ void Assignment::solve_exactly(std::size_t first, std::size_t last, double unass
   rows_.clear();
   columns_.clear();
   for (std::size_t k = first; k < last; ++k) {
-    int& row = local_row_[at(pairs_[k].row)];
-    int& column = local_column_[at(pairs_[k].column)];
+    int& row = local_row_[as_index(pairs_[k].row)];
+    int& column = local_column_[as_index(pairs_[k].column)];
     if (row < 0) {
       row = static_cast<int>(rows_.size());
       rows_.push_back(pairs_[k].row);
@@ -96,70 +97,71 @@ void Assignment::solve_exactly(std::size_t first, std::size_t last, double unass
     }
   }
   const int row_count = static_cast<int>(rows_.size());
-  if (row_count > kLargestComponent || columns_.size() > 4 * at(kLargestComponent)) {
+  if (row_count > kLargestComponent || columns_.size() > 4 * as_index(kLargestComponent)) {
     match_greedily(first, last);
     return;
   }
 
   // Every row also has a dummy column of its own, whose cost is that of staying unassigned.
   const int width = static_cast<int>(columns_.size()) + row_count;
-  cost_.assign(at(row_count) * at(width), kImpossible);
+  cost_.assign(as_index(row_count) * as_index(width), kImpossible);
   for (std::size_t k = first; k < last; ++k) {
-    const int row = local_row_[at(pairs_[k].row)];
-    cost_[at(row) * at(width) + at(local_column_[at(pairs_[k].column)])] = pairs_[k].cost;
+    const int row = local_row_[as_index(pairs_[k].row)];
+    cost_[as_index(row) * as_index(width) + as_index(local_column_[as_index(pairs_[k].column)])] =
+        pairs_[k].cost;
   }
   for (int row = 0; row < row_count; ++row)
-    cost_[at(row) * at(width) + columns_.size() + at(row)] = unassigned_cost;
-  row_price_.assign(at(row_count), 0.0);
-  column_price_.assign(at(width) + 1, 0.0);
-  matched_row_.assign(at(width) + 1, -1);
+    cost_[as_index(row) * as_index(width) + columns_.size() + as_index(row)] = unassigned_cost;
+  row_price_.assign(as_index(row_count), 0.0);
+  column_price_.assign(as_index(width) + 1, 0.0);
+  matched_row_.assign(as_index(width) + 1, -1);
   for (int row = 0; row < row_count; ++row) augment(row, width);
   for (std::size_t column = 0; column < columns_.size(); ++column) {
     const int row = matched_row_[column + 1];
     if (row < 0) continue;
-    column_of_row_[at(rows_[at(row)])] = columns_[column];
-    row_of_column_[at(columns_[column])] = rows_[at(row)];
+    column_of_row_[as_index(rows_[as_index(row)])] = columns_[column];
+    row_of_column_[as_index(columns_[column])] = rows_[as_index(row)];
   }
 }
 
 /// Assigns one more row along the cheapest augmenting path (Dijkstra on reduced costs).
 void Assignment::augment(int row, int width) {
-  slack_.assign(at(width) + 1, std::numeric_limits<double>::infinity());
-  way_.assign(at(width) + 1, 0);
-  visited_.assign(at(width) + 1, 0);
+  slack_.assign(as_index(width) + 1, std::numeric_limits<double>::infinity());
+  way_.assign(as_index(width) + 1, 0);
+  visited_.assign(as_index(width) + 1, 0);
   matched_row_[0] = row;
   int here = 0;
   do {
-    visited_[at(here)] = 1;
-    const int looking = matched_row_[at(here)];
+    visited_[as_index(here)] = 1;
+    const int looking = matched_row_[as_index(here)];
     double step = std::numeric_limits<double>::infinity();
     int next = 0;
     for (int column = 1; column <= width; ++column) {
-      if (visited_[at(column)] != 0) continue;
-      const double reduced = cost_[at(looking) * at(width) + at(column - 1)] - row_price_[at(looking)] -
-                             column_price_[at(column)];
-      if (reduced < slack_[at(column)]) {
-        slack_[at(column)] = reduced;
-        way_[at(column)] = here;
+      if (visited_[as_index(column)] != 0) continue;
+      const double reduced = cost_[as_index(looking) * as_index(width) + as_index(column - 1)] -
+                             row_price_[as_index(looking)] - column_price_[as_index(column)];
+      if (reduced < slack_[as_index(column)]) {
+        slack_[as_index(column)] = reduced;
+        way_[as_index(column)] = here;
       }
-      if (slack_[at(column)] < step) {
-        step = slack_[at(column)];
+      if (slack_[as_index(column)] < step) {
+        step = slack_[as_index(column)];
         next = column;
       }
     }
     for (int column = 0; column <= width; ++column) {
-      if (visited_[at(column)] != 0) {
-        row_price_[at(matched_row_[at(column)])] += step;
-        column_price_[at(column)] -= step;
+      if (visited_[as_index(column)] != 0) {
+        row_price_[as_index(matched_row_[as_index(column)])] += step;
+        column_price_[as_index(column)] -= step;
       } else {
-        slack_[at(column)] -= step;
+        slack_[as_index(column)] -= step;
       }
     }
     here = next;
-  } while (matched_row_[at(here)] >= 0);
+  } while (matched_row_[as_index(here)] >= 0);
   while (here != 0) {
-    const int before = way_[at(here)];
-    matched_row_[at(here)] = matched_row_[at(before)];
+    const int before = way_[as_index(here)];
+    matched_row_[as_index(here)] = matched_row_[as_index(before)];
     here = before;
   }
 }

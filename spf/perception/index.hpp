@@ -5,7 +5,7 @@
 
 namespace spf {
 
-[[nodiscard]] constexpr std::size_t at(int index) {
+[[nodiscard]] constexpr std::size_t as_index(int index) {
   return static_cast<std::size_t>(index);
 }
 

@@ -15,10 +15,10 @@ constexpr double kWalkSigma = 0.05;  // [m] offset of the legs' midpoint from th
 
 /// Largest distance of a return from the first one [m].
 double extent_of(const std::vector<ScanReturn>& returns, const Segment& segment) {
-  const Eigen::Vector2d& first = returns[at(segment.first)].position_world;
+  const Eigen::Vector2d& first = returns[as_index(segment.first)].position_world;
   double squared = 0.0;
   for (int k = 1; k < segment.count; ++k)
-    squared = std::max(squared, (returns[at(segment.first + k)].position_world - first).squaredNorm());
+    squared = std::max(squared, (returns[as_index(segment.first + k)].position_world - first).squaredNorm());
   return std::sqrt(squared);
 }
 
@@ -33,13 +33,13 @@ Segment part_between(const Segment& segment, int first, int last) {
 /// Rms distance of the returns from their best line (total least squares) [m].
 double line_rms(const std::vector<ScanReturn>& returns, const Segment& segment) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (int k = 0; k < segment.count; ++k) mean += returns[at(segment.first + k)].position_world;
+  for (int k = 0; k < segment.count; ++k) mean += returns[as_index(segment.first + k)].position_world;
   mean /= segment.count;
   double xx = 0.0;
   double xy = 0.0;
   double yy = 0.0;
   for (int k = 0; k < segment.count; ++k) {
-    const Eigen::Vector2d way = returns[at(segment.first + k)].position_world - mean;
+    const Eigen::Vector2d way = returns[as_index(segment.first + k)].position_world - mean;
     xx += way.x() * way.x();
     xy += way.x() * way.y();
     yy += way.y() * way.y();
@@ -76,24 +76,25 @@ double ScanDetector::fit(const SensorSweep& sweep, const Segmentation& segmentat
   DiscFitProblem problem;
   detection.returns = 0;
   for (int part = 0; part < detection.part_count; ++part)
-    detection.returns += detection.parts[at(part)].count;
+    detection.returns += detection.parts[as_index(part)].count;
   const int stride = (detection.returns + kMostFitted - 1) / kMostFitted;
   int number = 0;
   for (int part = 0; part < detection.part_count; ++part) {
-    const Segment& segment = detection.parts[at(part)];
+    const Segment& segment = detection.parts[as_index(part)];
     for (int k = 0; k < segment.count; ++k, ++number)
-      if (number % stride == 0) chosen[at(problem.count++)] = segmentation.returns()[at(segment.first + k)];
+      if (number % stride == 0)
+        chosen[as_index(problem.count++)] = segmentation.returns()[as_index(segment.first + k)];
   }
-  const ScanReturn& middle = chosen[at(problem.count / 2)];
+  const ScanReturn& middle = chosen[as_index(problem.count / 2)];
   problem.returns = chosen.data();
   problem.sensor_world = sweep.ray(middle.beam).origin_world;
   problem.range_sigma = parameters_.range_sigma;
   problem.prior_radius = radius;
   problem.prior_radius_sigma = radius_sigma;
   const Segment& front = detection.parts[0];
-  const Segment& back = detection.parts[at(detection.part_count - 1)];
-  const ScanReturn& first = segmentation.returns()[at(front.first)];
-  const ScanReturn& last = segmentation.returns()[at(back.first + back.count - 1)];
+  const Segment& back = detection.parts[as_index(detection.part_count - 1)];
+  const ScanReturn& first = segmentation.returns()[as_index(front.first)];
+  const ScanReturn& last = segmentation.returns()[as_index(back.first + back.count - 1)];
   if (front.first_edge == SegmentEdge::free)
     problem.tangents[0] = tangent_beside(sweep, first, -1.0, parameters_.shape_sigma);
   if (back.last_edge == SegmentEdge::free)
@@ -154,13 +155,13 @@ void ScanDetector::detect_faces(const SensorSweep& sweep, const std::vector<Scan
   while (k + 1 < corners_.size()) {
     const int from = corners_[k];
     const int to = corners_[k + 1];
-    const Eigen::Vector2d start = returns[at(from)].position_world;
-    const Eigen::Vector2d chord = returns[at(to)].position_world - start;
+    const Eigen::Vector2d start = returns[as_index(from)].position_world;
+    const Eigen::Vector2d chord = returns[as_index(to)].position_world - start;
     const double length = chord.norm();
     double farthest = tolerance;
     int corner = -1;
     for (int i = from + 1; i < to; ++i) {
-      const Eigen::Vector2d way = returns[at(i)].position_world - start;
+      const Eigen::Vector2d way = returns[as_index(i)].position_world - start;
       const double distance = length > tolerance ? std::abs(cross(chord, way)) / length : way.norm();
       if (distance <= farthest) continue;
       farthest = distance;
@@ -182,13 +183,15 @@ void ScanDetector::detect_pieces(const SensorSweep& sweep, const std::vector<Sca
                                  const Segment& face) {
   const int first = face.first;
   const int last = face.first + face.count - 1;
-  const double length = (returns[at(last)].position_world - returns[at(first)].position_world).norm();
+  const double length =
+      (returns[as_index(last)].position_world - returns[as_index(first)].position_world).norm();
   const double pieces = std::max(std::ceil(length / parameters_.piece_length), 1.0);
   const double longest = length / pieces + 1e-9;
   int begin = first;
   for (int k = first; k <= last; ++k) {
     const bool beyond =
-        (returns[at(k)].position_world - returns[at(begin)].position_world).norm() > longest && k > begin;
+        (returns[as_index(k)].position_world - returns[as_index(begin)].position_world).norm() > longest &&
+        k > begin;
     if (!beyond) continue;
     add_piece(sweep, returns, part_between(face, begin, k - 1));
     begin = k;
@@ -202,9 +205,9 @@ void ScanDetector::add_piece(const SensorSweep& sweep, const std::vector<ScanRet
                              const Segment& piece) {
   if (detections_.size() >= kMostDetections || piece.count <= 0) return;
   const int last = piece.first + piece.count - 1;
-  const Eigen::Vector2d from = returns[at(piece.first)].position_world;
-  const Eigen::Vector2d to = returns[at(last)].position_world;
-  const int middle_beam = returns[at((piece.first + last) / 2)].beam;
+  const Eigen::Vector2d from = returns[as_index(piece.first)].position_world;
+  const Eigen::Vector2d to = returns[as_index(last)].position_world;
+  const int middle_beam = returns[as_index((piece.first + last) / 2)].beam;
   const Eigen::Vector2d middle = 0.5 * (from + to);
   const Eigen::Vector2d away = middle - sweep.ray(middle_beam).origin_world;
   const double half = 0.5 * (to - from).norm();
@@ -237,14 +240,14 @@ void ScanDetector::join_legs(const Segmentation& segmentation) {
   const int count = static_cast<int>(detections_.size());
   int kept = 0;
   for (int k = 0; k < count; ++k) {
-    const int partner = partner_[at(k)];
-    const bool pair = partner >= 0 && partner_[at(partner)] == k;
+    const int partner = partner_[as_index(k)];
+    const bool pair = partner >= 0 && partner_[as_index(partner)] == k;
     if (pair && partner < k) continue;  // joined already
-    if (kept != k) detections_[at(kept)] = detections_[at(k)];
-    if (pair) join(detections_[at(partner)], detections_[at(kept)]);
+    if (kept != k) detections_[as_index(kept)] = detections_[as_index(k)];
+    if (pair) join(detections_[as_index(partner)], detections_[as_index(kept)]);
     ++kept;
   }
-  detections_.resize(at(kept));
+  detections_.resize(as_index(kept));
 }
 
 /// Into partner_: for each leg the only other one within reach; -1 = none, -2 = several.

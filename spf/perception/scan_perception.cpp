@@ -56,7 +56,7 @@ void ScanPerception::explain_by_discs(const SensorSweep& sweep, const std::vecto
   if (discs.empty()) return;
   return_at_.assign(sweep.scan->ranges.size(), -1);
   for (std::size_t k = 0; k < returns_.size(); ++k)
-    return_at_[at(returns_[k].beam)] = static_cast<std::int32_t>(k);
+    return_at_[as_index(returns_[k].beam)] = static_cast<std::int32_t>(k);
   for (const MaskedDisc& disc : discs) {
     const double middle = sweep.beam_towards(disc.position_world);
     const double distance = (disc.position_world - sweep.ray(middle).origin_world).norm();
@@ -67,12 +67,12 @@ void ScanPerception::explain_by_discs(const SensorSweep& sweep, const std::vecto
     const long high = std::lround(std::min(middle + half_span, middle + 0.5 * sweep.beams()));
     for (long number = low; number <= high; ++number) {
       const int beam = sweep.wrapped(number);
-      const std::int32_t index = beam < 0 ? -1 : return_at_[at(beam)];
+      const std::int32_t index = beam < 0 ? -1 : return_at_[as_index(beam)];
       if (index < 0) continue;
-      const Eigen::Vector2d way = returns_[at(index)].position_world - disc.position_world;
+      const Eigen::Vector2d way = returns_[as_index(index)].position_world - disc.position_world;
       if (way.squaredNorm() >= disc.radius * disc.radius) continue;
-      explained_[at(index)] = 1;
-      kept_out_[at(beam)] = 1;
+      explained_[as_index(index)] = 1;
+      kept_out_[as_index(beam)] = 1;
     }
   }
 }
@@ -82,9 +82,9 @@ void ScanPerception::compare_with_free_space(const OccupancyMap& map) {
   for (ScanDetection& detection : detector_.detections()) {
     int free = 0;
     for (int part = 0; part < detection.part_count; ++part) {
-      const Segment& segment = detection.parts[at(part)];
+      const Segment& segment = detection.parts[as_index(part)];
       for (int k = 0; k < segment.count; ++k)
-        if (map.seen_free(segmentation_.returns()[at(segment.first + k)].position_world)) ++free;
+        if (map.seen_free(segmentation_.returns()[as_index(segment.first + k)].position_world)) ++free;
     }
     detection.free_share = static_cast<double>(free) / std::max(detection.returns, 1);
   }
@@ -102,9 +102,9 @@ void ScanPerception::mark_kept_out() {
                               track->time - track->birth_time < parameters_.probation;
     if (!track->dynamic && !on_probation) continue;
     for (int part = 0; part < found[k].part_count; ++part) {
-      const Segment& segment = found[k].parts[at(part)];
+      const Segment& segment = found[k].parts[as_index(part)];
       for (int i = 0; i < segment.count; ++i)
-        kept_out_[at(segmentation_.returns()[at(segment.first + i)].beam)] = 1;
+        kept_out_[as_index(segmentation_.returns()[as_index(segment.first + i)].beam)] = 1;
     }
   }
 }

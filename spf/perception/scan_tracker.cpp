@@ -75,17 +75,17 @@ void ScanTracker::join_parts(const Segmentation& segmentation, std::vector<ScanD
     const std::array<int, 3> places{part.first, part.first + part.count / 2, part.first + part.count - 1};
     for (std::size_t row = 0; row < tracks_.size(); ++row) {
       const int main = assignment_.column_of_row()[row];
-      if (main < 0 || detections[at(main)].part_count >= ScanDetection::kMostParts) continue;
+      if (main < 0 || detections[as_index(main)].part_count >= ScanDetection::kMostParts) continue;
       const double reach = tracks_[row].radius + 3.0 * parameters_.range_sigma +
                            2.0 * std::sqrt(0.5 * tracks_[row].position_covariance().trace());
       const bool within = std::all_of(places.begin(), places.end(), [&](int place) {
-        return (returns[at(place)].position_world - tracks_[row].position()).norm() < reach;
+        return (returns[as_index(place)].position_world - tracks_[row].position()).norm() < reach;
       });
       if (!within) continue;
       main_of_detection_[k] = main;
-      ScanDetection& whole = detections[at(main)];
+      ScanDetection& whole = detections[as_index(main)];
       if (std::abs(whole.time - detections[k].time) > kSameTime) break;
-      whole.parts[at(whole.part_count++)] = part;
+      whole.parts[as_index(whole.part_count++)] = part;
       whole.returns += part.count;
       std::sort(whole.parts.begin(), whole.parts.begin() + whole.part_count,
                 [](const Segment& a, const Segment& b) { return a.first < b.first; });
@@ -102,7 +102,7 @@ void ScanTracker::correct_matched(const SensorSweep& sweep, const Segmentation& 
     const int column = assignment_.column_of_row()[row];
     if (column < 0) continue;
     ScanTrack& track = tracks_[row];
-    ScanDetection& detection = detections[at(column)];
+    ScanDetection& detection = detections[as_index(column)];
     const double unseen = std::max(detection.time - track.last_seen, 0.0);
     track.radius_variance += kRadiusDrift * kRadiusDrift * unseen;
     const bool part_of_disc = detection.kind == ScanDetection::Kind::face && track.dynamic && !track.face &&
@@ -117,10 +117,11 @@ void ScanTracker::correct_matched(const SensorSweep& sweep, const Segmentation& 
       track.radius_variance *= 1.0 - gain;
     }
     correct(track, detection, parameters_);
-    track_of_detection_[at(column)] = track.id;
+    track_of_detection_[as_index(column)] = track.id;
   }
   for (std::size_t k = 0; k < detections.size(); ++k)
-    if (main_of_detection_[k] >= 0) track_of_detection_[k] = track_of_detection_[at(main_of_detection_[k])];
+    if (main_of_detection_[k] >= 0)
+      track_of_detection_[k] = track_of_detection_[as_index(main_of_detection_[k])];
 }
 
 void ScanTracker::look_for(const SensorSweep& sweep, ScanTrack& track) const {

@@ -147,7 +147,8 @@ Eigen::Vector2d CostToGo::descend(const Eigen::Vector2d& position_world, double 
   return window_.origin_world + here;
 }
 
-void CostToGo::way(const Eigen::Vector2d& position_world, std::vector<Eigen::Vector2d>& corners_world) const {
+void CostToGo::shortest_path(const Eigen::Vector2d& position_world,
+                             std::vector<Eigen::Vector2d>& corners_world) const {
   corners_world.clear();
   walk(position_world, [&](const Eigen::Vector2d& corner) {
     corners_world.push_back(window_.origin_world + corner);

@@ -62,7 +62,7 @@ class CostToGo {
   [[nodiscard]] bool ready() const { return !parents_.empty(); }
   [[nodiscard]] CostToGoOutcome outcome() const { return outcome_; }
 
-  // The following require ready(); none allocates (except to grow way()'s argument).
+  // The following require ready(); none allocates (except to grow shortest_path()'s argument).
   /// Length of the shortest path to goal_used() [m]. Continuous; exactly the straight distance where the goal
   /// is in line of sight.
   [[nodiscard]] double cost_to_go(const Eigen::Vector2d& position_world) const;
@@ -74,7 +74,8 @@ class CostToGo {
   /// The position after `distance` metres along the shortest path, at most the goal.
   [[nodiscard]] Eigen::Vector2d descend(const Eigen::Vector2d& position_world, double distance) const;
   /// The corners of the shortest path, from the position itself to goal_used().
-  void way(const Eigen::Vector2d& position_world, std::vector<Eigen::Vector2d>& corners_world) const;
+  void shortest_path(const Eigen::Vector2d& position_world,
+                     std::vector<Eigen::Vector2d>& corners_world) const;
   /// Whether a path leads from this position to the goal.
   [[nodiscard]] bool reachable(const Eigen::Vector2d& position_world) const;
 

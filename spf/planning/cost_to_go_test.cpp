@@ -180,7 +180,7 @@ TEST(CostToGo, LeadsOutOfAUShapeAlongClearGround) {
   const Eigen::Vector2d start{1.0, 0.0};
   ASSERT_EQ(guide.update(map, goal, start), CostToGoOutcome::reachable);
   std::vector<Eigen::Vector2d> corners;
-  guide.way(start, corners);
+  guide.shortest_path(start, corners);
   ASSERT_GE(corners.size(), 4u);
   EXPECT_EQ(corners.front(), start);
   EXPECT_LT((corners.back() - goal).norm(), 1e-5);
@@ -250,7 +250,7 @@ TEST(CostToGo, ReportsAClosedRoomButStillLeadsTowardsTheGoal) {
 TEST(CostToGo, FindsDetoursOutsideTheWindow) {
   CostToGoParameters parameters;
   parameters.window_margin = 1.0;
-  const OccupancyMap map = map_with({{{-0.2, -6.0}, {0.2, 8.0}}});  // the only way round is at the far end
+  const OccupancyMap map = map_with({{{-0.2, -6.0}, {0.2, 8.0}}});  // the only path round is at the far end
   CostToGo guide{parameters};
   EXPECT_EQ(guide.update(map, {2.0, 5.0}, {-2.0, 5.0}), CostToGoOutcome::reachable);
   const double expected = 2.0 * std::hypot(1.8, 11.0);  // a little longer: around the corner at 0.35 m

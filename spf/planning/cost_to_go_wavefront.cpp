@@ -9,7 +9,8 @@
 namespace spf {
 namespace {
 
-constexpr double kBlockedFactor = 3.0;  // [1] about the cost of a metre on blocked ground, where no way leads
+constexpr double kBlockedFactor =
+    3.0;  // [1] about the cost of a metre on blocked ground, where no path leads
 
 enum NodeState : std::uint8_t {
   blocked,  // nearer to a surface than the clearance

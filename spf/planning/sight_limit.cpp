@@ -58,7 +58,7 @@ double SightLimit::explored_length(const Eigen::Vector2d& from, const Eigen::Vec
 }
 
 double SightLimit::explored_way(const CostToGo& guide, const Eigen::Vector2d& from, double enough) {
-  guide.way(from, way_);
+  guide.shortest_path(from, way_);
   double length = 0.0;
   for (std::size_t i = 1; i < way_.size() && length < enough; ++i) {
     const Eigen::Vector2d leg = way_[i] - way_[i - 1];

@@ -20,7 +20,6 @@
 #include "spf/team/team_parameters.hpp"
 #include "spf/tracking/tracker_parameters.hpp"
 #include "spf/world/obstacle_tracker.hpp"
-#include "spf/world/occupancy_parameters.hpp"
 #include "spf/world/peer_table.hpp"
 
 namespace spf {
@@ -53,7 +52,6 @@ struct AgentParameters {
   PerceptionParameters perception;
   ObstacleTrackerParameters obstacles;
   PeerTableParameters peers;
-  OccupancyParameters occupancy;
   PlannerFactory make_planner = make_space_time_planner;  ///< not among the fields: a method sets it
 
   template <class Self, class Visitor>

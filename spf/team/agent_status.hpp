@@ -17,7 +17,7 @@ enum class StopCause {
   arrived,
   obstacle_ahead,  ///< waits for a moving obstacle (culprit = its id)
   peer_ahead,      ///< waits for a teammate (culprit = its number)
-  no_path,         ///< the static map leaves no way to the goal
+  no_path,         ///< the static map leaves no path to the goal
   planner_failed,  ///< no safe plan within the budget; stands and tries again
   // Found by its host's watchdog (host/watchdog.hpp).
   emergency_stop,

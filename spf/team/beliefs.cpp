@@ -19,11 +19,8 @@ Beliefs::Beliefs(int robot_id, const AgentParameters& parameters, const Occupanc
       perception_parameters_{parameters.perception},
       peer_table_{robot_id, parameters.peers} {}
 
-bool Beliefs::timely(const Observation& observation, double now) const {
-  return observation.time >= now - stale_time_ - kTimeTolerance && observation.time <= now + kClockError;
-}
-
-void Beliefs::observe(const Observation& observation, const std::optional<Pose2>& pose_world) {
+void Beliefs::observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now) {
+  if (timeliness(observation.time, now, stale_time_) != Timeliness::timely) return;
   obstacle_tracker_.update(observation);
   if (!observation.scan || !pose_world) return;
   mask_dynamic_returns(observation.time);

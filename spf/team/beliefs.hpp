@@ -27,10 +27,9 @@ class Beliefs {
   Beliefs(int robot_id, const AgentParameters& parameters, const OccupancyMap& map);
 
   MessageVerdict hear(const HeardMessage& message, double now) { return peer_table_.receive(message, now); }
-  /// Whether an observation tells about the present: neither too old to rely on nor ahead of time.
-  [[nodiscard]] bool timely(const Observation& observation, double now) const;
-  /// Takes in a timely observation. Its scan enters the map where the robot's pose then is known.
-  void observe(const Observation& observation, const std::optional<Pose2>& pose_world);
+  /// Takes in an observation, if it tells about the present (`timeliness`). Its scan enters the map where the
+  /// robot's pose then is known.
+  void observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now);
   /// Obstacles and peers as believed at a time [s], for the snapshots from now on.
   void refresh(double time);
 

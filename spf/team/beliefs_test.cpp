@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "spf/team/ideal_host_test.hpp"
+#include "spf/team/schedule.hpp"
 
 namespace spf {
 namespace {
@@ -24,7 +25,7 @@ class BeliefsTest : public ::testing::Test {
       observation.scan = scan;
       more(time, observation);
       beliefs.refresh(time);
-      beliefs.observe(observation, Pose2{{0.0, 0.0}, 0.0});
+      beliefs.observe(observation, Pose2{{0.0, 0.0}, 0.0}, observation.time);
     }
     return beliefs.map().occupied_points().size();
   }
@@ -63,7 +64,7 @@ TEST_F(BeliefsTest, APeerMasksItsReturnsUnlessItIsDistrusted) {
     scan.angle_increment = 0.05;
     scan.ranges = {2.0, 2.0, 2.0};
     observation.scan = scan;
-    beliefs.observe(observation, Pose2{{0.0, 0.0}, 0.0});
+    beliefs.observe(observation, Pose2{{0.0, 0.0}, 0.0}, observation.time);
   }
   EXPECT_GT(beliefs.map().occupied_points().size(), before);
 }
@@ -74,21 +75,34 @@ TEST_F(BeliefsTest, WithoutAPoseAScanEntersNoMap) {
   observation.scan.emplace();
   observation.scan->ranges = {2.0, 2.0};
   const std::uint64_t revision = beliefs.map().revision();
-  beliefs.observe(observation, std::nullopt);
+  beliefs.observe(observation, std::nullopt, observation.time);
   EXPECT_EQ(beliefs.map().revision(), revision);
 }
 
-TEST_F(BeliefsTest, KnowsWhichObservationsTellAboutThePresent) {
+TEST(Timeliness, IsOfObservationsThatTellAboutThePresent) {
+  constexpr double kStale = 0.3;
+  for (const double age : {0.0, kStale, -0.05})
+    EXPECT_EQ(timeliness(10.0 - age, 10.0, kStale), Timeliness::timely) << age;
+  for (const double age : {kStale + 0.01, 5.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(timeliness(10.0 - age, 10.0, kStale), Timeliness::late) << age;
+  EXPECT_EQ(timeliness(10.2, 10.0, kStale), Timeliness::ahead);
+  EXPECT_EQ(timeliness(10.05, 10.0, kStale, 0.02), Timeliness::ahead);
+  EXPECT_EQ(timeliness(10.2, 10.0, kStale, 5.0), Timeliness::ahead);  // whatever the host tolerates
+}
+
+TEST_F(BeliefsTest, IgnoreObservationsThatDoNotTellAboutThePresent) {
   Observation observation;
-  const double stale = TeamParameters{}.stale_time;
-  for (const double age : {0.0, stale, -0.05}) {
-    observation.time = 10.0 - age;
-    EXPECT_TRUE(beliefs.timely(observation, 10.0)) << age;
+  observation.detections.resize(1);
+  for (const double time : {9.0, 11.0, std::numeric_limits<double>::quiet_NaN()}) {
+    observation.time = time;
+    beliefs.observe(observation, std::nullopt, 10.0);
+    beliefs.refresh(10.0);
+    EXPECT_TRUE(beliefs.tracks().empty()) << time;
   }
-  for (const double age : {stale + 0.01, 5.0, -0.2, std::numeric_limits<double>::quiet_NaN()}) {
-    observation.time = 10.0 - age;
-    EXPECT_FALSE(beliefs.timely(observation, 10.0)) << age;
-  }
+  observation.time = 10.0;
+  beliefs.observe(observation, std::nullopt, 10.0);
+  beliefs.refresh(10.0);
+  EXPECT_EQ(beliefs.tracks().size(), 1u);
 }
 
 TEST_F(BeliefsTest, TheSnapshotHoldsTheRobotsOwnRank) {
@@ -117,7 +131,7 @@ class ScansAlone : public ::testing::Test {
       const bool hit = along > 0.0 && std::abs(beside) < radius;
       scan.ranges.push_back(hit ? along - std::sqrt(radius * radius - beside * beside) : 1e9);
     }
-    beliefs.observe(observation, Pose2{});
+    beliefs.observe(observation, Pose2{}, time);
     beliefs.refresh(time);
   }
   static AgentParameters perceiving() {

@@ -23,11 +23,11 @@ class GuidePolicy {
 
   /// [s] The guide follows a changing map at most this often ...
   static constexpr double kPeriod = 0.5;
-  /// [s] ... and, while its way stays clear, at most this often.
+  /// [s] ... and, while its path stays clear, at most this often.
   static constexpr double kIdlePeriod = 2.0;
 
-  [[nodiscard]] const CostToGo& path() const { return path_; }
-  /// No way leads to the goal, and the guide to the nearest place that one leads to.
+  [[nodiscard]] const CostToGo& cost_to_go() const { return cost_to_go_; }
+  /// No path leads to the goal, and the guide to the nearest position that one leads to.
   [[nodiscard]] bool cut_off() const { return cut_off_; }
   /// Is the robot at `here` as near to the goal as it can get?
   [[nodiscard]] bool goal_out_of_reach(const Eigen::Vector2d& here) const;
@@ -38,9 +38,9 @@ class GuidePolicy {
 
   bool approaches_cut_off_goal_;
   double goal_tolerance_;  // [m]
-  CostToGo path_;
-  std::vector<Eigen::Vector2d> way_;     // [m] kept for its memory
-  std::optional<Eigen::Vector2d> goal_;  // [m] that the guide stands for
+  CostToGo cost_to_go_;
+  std::vector<Eigen::Vector2d> corners_;  // [m] kept for its memory
+  std::optional<Eigen::Vector2d> goal_;   // [m] that the guide stands for
   bool cut_off_ = false;
   double next_time_;           // [s]
   double update_time_ = -1e9;  // [s]

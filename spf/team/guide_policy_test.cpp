@@ -18,9 +18,9 @@ TEST(GuidePolicy, LeadsToTheGoalAndFollowsANewOneAtOnce) {
   GuidePolicy guide{AgentParameters{}, true, 0.0};
   const OccupancyMap map = empty_map();
   guide.refresh(0.0, map, kGoal, kHere);
-  EXPECT_NEAR(guide.path().cost_to_go(kHere), 8.0, 1e-3);
+  EXPECT_NEAR(guide.cost_to_go().cost_to_go(kHere), 8.0, 1e-3);
   guide.refresh(0.01, map, {0.0, 3.0}, kHere);
-  EXPECT_NEAR(guide.path().cost_to_go(kHere), 5.0, 1e-3);
+  EXPECT_NEAR(guide.cost_to_go().cost_to_go(kHere), 5.0, 1e-3);
   EXPECT_FALSE(guide.goal_out_of_reach(kHere));
 }
 
@@ -34,12 +34,12 @@ TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLate
     else
       map.add_box({-1.0, 6.0}, {1.0, 8.0});
     const Eigen::Vector2d behind{0.0, blocks ? 0.0 : 7.0};
-    const double before = guide.path().cost_to_go(behind);
+    const double before = guide.cost_to_go().cost_to_go(behind);
     const double period = blocks ? GuidePolicy::kPeriod : GuidePolicy::kIdlePeriod;
     guide.refresh(period - 0.05, map, kGoal, kHere);
-    EXPECT_EQ(guide.path().cost_to_go(behind), before) << blocks;
+    EXPECT_EQ(guide.cost_to_go().cost_to_go(behind), before) << blocks;
     guide.refresh(period, map, kGoal, kHere);
-    EXPECT_NE(guide.path().cost_to_go(behind), before) << blocks;
+    EXPECT_NE(guide.cost_to_go().cost_to_go(behind), before) << blocks;
   }
 }
 
@@ -49,26 +49,26 @@ TEST(GuidePolicy, LeadsAsNearToAWalledInGoalAsAWayDoesWhereTheMethodWantsThat) {
   guide.refresh(0.0, map, kGoal, kHere);
   EXPECT_TRUE(guide.cut_off());
   EXPECT_TRUE(guide.goal_out_of_reach(kHere));
-  const Eigen::Vector2d end = guide.path().goal_used();
+  const Eigen::Vector2d end = guide.cost_to_go().goal_used();
   EXPECT_GT(kRing[2].distance(end), 0.3);
   EXPECT_LT(kRing[2].distance(end), 0.7);
-  EXPECT_TRUE(guide.path().reachable(kHere));
+  EXPECT_TRUE(guide.cost_to_go().reachable(kHere));
 }
 
 TEST(GuidePolicy, LeavesAWalledInGoalToAMethodThatStands) {
   GuidePolicy guide{AgentParameters{}, false, 0.0};
   guide.refresh(0.0, map_of(kRing), kGoal, kHere);
   EXPECT_FALSE(guide.cut_off());
-  EXPECT_EQ(guide.path().outcome(), CostToGoOutcome::unreachable);
+  EXPECT_EQ(guide.cost_to_go().outcome(), CostToGoOutcome::unreachable);
   EXPECT_TRUE(guide.goal_out_of_reach(kHere));
 }
 
 TEST(GuidePolicy, AGoalOnBlockedGroundIsOutOfReachOnlyForARobotThatIsAsNearAsItGets) {
   GuidePolicy guide{AgentParameters{}, true, 0.0};
   guide.refresh(0.0, map_of({{{3.0, -1.0}, {5.0, 1.0}}}), {3.2, 0.0}, kHere);
-  ASSERT_EQ(guide.path().outcome(), CostToGoOutcome::goal_moved);
+  ASSERT_EQ(guide.cost_to_go().outcome(), CostToGoOutcome::goal_moved);
   EXPECT_FALSE(guide.goal_out_of_reach(kHere));
-  EXPECT_TRUE(guide.goal_out_of_reach(guide.path().goal_used()));
+  EXPECT_TRUE(guide.goal_out_of_reach(guide.cost_to_go().goal_used()));
 }
 
 }  // namespace

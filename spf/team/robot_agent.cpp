@@ -93,7 +93,7 @@ void RobotAgent::Implementation::make_plan(double now, const std::optional<State
   request.goal_world = *goal;
   request.goal_heading = goal_heading;
   request.world = beliefs.snapshot(now);
-  request.guide = &guide.path();
+  request.guide = &guide.cost_to_go();
   request.goal_cut_off = guide.cut_off();
   request.keep_candidates = keep_candidates;
   commitment.begin_plan(state, request);
@@ -143,8 +143,7 @@ MessageVerdict RobotAgent::hear(const HeardMessage& message, double now) {
   return implementation_->beliefs.hear(message, now);
 }
 void RobotAgent::observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now) {
-  Beliefs& beliefs = implementation_->beliefs;
-  if (beliefs.timely(observation, now)) beliefs.observe(observation, pose_world);
+  implementation_->beliefs.observe(observation, pose_world, now);
 }
 bool RobotAgent::plan_due(double now) const {
   return is_due(implementation_->next_plan_time, now);

@@ -43,8 +43,8 @@ class RobotAgent {
 
   /// A message of a peer, heard now.
   MessageVerdict hear(const HeardMessage& message, double now);
-  /// What was seen, from where: without a pose its scan tells nothing. One that is too old to rely on, or
-  /// ahead of time, is ignored.
+  /// What was seen, from where: without a pose its scan tells nothing. Ignored when it does not tell about
+  /// the present (`timeliness`, spf/team/schedule.hpp).
   void observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now);
 
   [[nodiscard]] bool plan_due(double now) const;

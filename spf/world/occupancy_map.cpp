@@ -52,8 +52,8 @@ struct OccupancyMap::Patch {
   }
 };
 
-OccupancyMap::OccupancyMap(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters)
-    : frame_{frame}, max_distance_{max_distance}, parameters_{parameters} {
+OccupancyMap::OccupancyMap(const GridFrame& frame, double max_distance)
+    : frame_{frame}, max_distance_{max_distance} {
   check_frame(frame);
   if (!(std::isfinite(max_distance) && max_distance > 0.0)) {
     throw std::invalid_argument("occupancy map: max_distance must be positive and finite");
@@ -170,7 +170,7 @@ void OccupancyMap::integrate(const RangeScan& scan, const Pose2& sensor_pose_wor
   if (box_distance(sensor, frame_.origin_world, frame_.origin_world + extent) > reach) return;
   collect_beams(scan, sensor_pose_world, reach, masked, kept_out);
   if (beams_.empty()) return;
-  if (!sensed_) sensed_.emplace(frame_, max_distance_, parameters_);
+  if (!sensed_) sensed_.emplace(frame_, max_distance_);
   if (sensed_->integrate(sensor, beams_)) ++revision_;
 }
 

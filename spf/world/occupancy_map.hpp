@@ -14,7 +14,6 @@
 #include "spf/math/pose2.hpp"
 #include "spf/world/grid_frame.hpp"
 #include "spf/world/observation.hpp"
-#include "spf/world/occupancy_parameters.hpp"
 #include "spf/world/sensed_layer.hpp"
 
 namespace spf {
@@ -31,9 +30,8 @@ struct MaskedDisc {
 class OccupancyMap {
  public:
   /// Distances are exact up to max_distance [m] and read max_distance beyond. Throws std::invalid_argument on
-  /// an empty frame or one of more than 2^26 nodes, a max_distance that is not positive, or parameters out of
-  /// range.
-  OccupancyMap(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters = {});
+  /// an empty frame or one of more than 2^26 nodes, or a max_distance that is not positive.
+  OccupancyMap(const GridFrame& frame, double max_distance);
 
   // Known shapes: exact distance at the nodes, negative inside; each costs only the nodes within max_distance
   // of it. Throw std::invalid_argument on numbers that are not finite, an empty rectangle or a negative
@@ -126,7 +124,6 @@ class OccupancyMap {
 
   GridFrame frame_;
   double max_distance_;
-  OccupancyParameters parameters_;
   bool unexplored_ = false;
   std::uint64_t revision_ = 0;
   std::shared_ptr<const std::vector<float>> known_;  // [m] of known shapes per node, null = none; see above

@@ -6,8 +6,14 @@
 namespace spf {
 namespace {
 
-constexpr double kLogOddsUnit = 4096.0;  // steps per unit of log odds; |log odds| <= 4.6 fits 16 bits
-constexpr double kOffsetUnit = 32767.0;  // steps per half cell
+// Beliefs about a cell, as in the base planner ES2 [1].
+constexpr double kHitProbability = 0.65;      // a return in a cell argues for "occupied" with this weight
+constexpr double kMissProbability = 0.35;     // a beam through a cell argues for "free"
+constexpr double kLowestProbability = 0.12;   // belief is kept above, so that new obstacles are believed soon
+constexpr double kHighestProbability = 0.90;  // and below, so that vanished obstacles are let go soon
+constexpr double kOccupiedProbability = 0.80;  // from here on a cell is an obstacle
+constexpr double kLogOddsUnit = 4096.0;        // steps per unit of log odds; |log odds| <= 4.6 fits 16 bits
+constexpr double kOffsetUnit = 32767.0;        // steps per half cell
 
 std::int16_t quantised_log_odds(double probability) {
   return static_cast<std::int16_t>(std::lround(kLogOddsUnit * std::log(probability / (1.0 - probability))));
@@ -46,15 +52,15 @@ bool contradicts(const Eigen::Vector2d& hit_from_sensor, const std::vector<Sense
 
 }  // namespace
 
-SensedLayer::SensedLayer(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters)
+SensedLayer::SensedLayer(const GridFrame& frame, double max_distance)
     : frame_{frame},
       max_distance_{static_cast<float>(max_distance)},
       reach_{static_cast<int>(std::ceil(max_distance / frame.resolution + 0.5))},
-      hit_step_{quantised_log_odds(parameters.hit_probability)},
-      miss_step_{quantised_log_odds(parameters.miss_probability)},
-      lowest_{quantised_log_odds(parameters.lowest_probability)},
-      highest_{quantised_log_odds(parameters.highest_probability)},
-      occupied_from_{quantised_log_odds(parameters.occupied_probability)},
+      hit_step_{quantised_log_odds(kHitProbability)},
+      miss_step_{quantised_log_odds(kMissProbability)},
+      lowest_{quantised_log_odds(kLowestProbability)},
+      highest_{quantised_log_odds(kHighestProbability)},
+      occupied_from_{quantised_log_odds(kOccupiedProbability)},
       tiles_across_{(frame.width + kTileSide - 1) >> kTileBits} {
   const int tiles_up = (frame.height + kTileSide - 1) >> kTileBits;
   tile_of_.assign(static_cast<std::size_t>(tiles_across_) * static_cast<std::size_t>(tiles_up), -1);

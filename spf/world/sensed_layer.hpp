@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "spf/world/grid_frame.hpp"
-#include "spf/world/occupancy_parameters.hpp"
 
 namespace spf {
 
@@ -25,7 +24,7 @@ struct SensedBeam {
 /// robot stores only what lies along its route.
 class SensedLayer {
  public:
-  SensedLayer(const GridFrame& frame, double max_distance, const OccupancyParameters& parameters);
+  SensedLayer(const GridFrame& frame, double max_distance);
 
   /// Enters a sweep; every cell is updated at most once, returns before crossings, so that a beam never
   /// clears what another beam of the same sweep has hit. True when any distance changed.

@@ -101,9 +101,9 @@ std::string plain_frame(const std::string& frame) {
 
 // ---- trajectories -----------------------------------------------------------------------------------------
 
-spf_empc_msgs::Trajectory to_message(const ToldTrajectory& told, const ClockEdge& clock,
+spf_empc_msgs::Trajectory to_message(const StampedTrajectory& stamped, const ClockEdge& clock,
                                      const std::string& frame) {
-  const TrajectoryMessage& from = told.message;
+  const TrajectoryMessage& from = stamped.message;
   spf_empc_msgs::Trajectory message;
   message.header.stamp = clock.time(from.sent_time);
   message.header.frame_id = frame;
@@ -114,7 +114,7 @@ spf_empc_msgs::Trajectory to_message(const ToldTrajectory& told, const ClockEdge
   message.expiry = clock.time(from.expiry_time);
   message.radius = from.radius;
   message.position_sigma = from.position_sigma;
-  if (told.observed) message.observed = clock.time(*told.observed);
+  if (stamped.observed) message.observed = clock.time(*stamped.observed);
   message.start = clock.time(from.trajectory.start_time());
   for (int i = 0; i < from.trajectory.piece_count(); ++i) {
     const spf::QuinticPiece& piece = from.trajectory.piece(i);
@@ -126,9 +126,9 @@ spf_empc_msgs::Trajectory to_message(const ToldTrajectory& told, const ClockEdge
   return message;
 }
 
-Converted<ToldTrajectory> from_message(const spf_empc_msgs::Trajectory& message, const ClockEdge& clock,
-                                       const std::string& frame) {
-  using Result = Converted<ToldTrajectory>;
+Converted<StampedTrajectory> from_message(const spf_empc_msgs::Trajectory& message, const ClockEdge& clock,
+                                          const std::string& frame) {
+  using Result = Converted<StampedTrajectory>;
   std::string refusal;
   if (frames_differ(message.header.frame_id, frame, refusal)) return Result::refused(refusal);
   if (message.robot_id > static_cast<std::uint32_t>(std::numeric_limits<int>::max()))
@@ -145,8 +145,8 @@ Converted<ToldTrajectory> from_message(const spf_empc_msgs::Trajectory& message,
   const std::optional<spf::HeadingProfile> heading = heading_of(message, clock);
   if (!heading) return Result::refused("its heading does not turn to its target");
 
-  ToldTrajectory told;
-  TrajectoryMessage& to = told.message;
+  StampedTrajectory stamped;
+  TrajectoryMessage& to = stamped.message;
   to.robot_id = static_cast<int>(message.robot_id);
   to.priority = static_cast<int>(message.priority);
   to.sequence = message.sequence;
@@ -157,8 +157,8 @@ Converted<ToldTrajectory> from_message(const spf_empc_msgs::Trajectory& message,
   to.state = static_cast<spf::PeerState>(message.state);
   to.trajectory = trajectory_of(message, clock);
   to.trajectory.set_heading(*heading);
-  if (!message.observed.isZero()) told.observed = clock.seconds(message.observed);
-  return {told, {}};
+  if (!message.observed.isZero()) stamped.observed = clock.seconds(message.observed);
+  return {stamped, {}};
 }
 
 // ---- poses ------------------------------------------------------------------------------------------------
@@ -328,8 +328,7 @@ Converted<spf::host::SensedWorld> from_message(const spf_empc_msgs::Observation&
 // ---- maps -------------------------------------------------------------------------------------------------
 
 Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid, const std::string& frame,
-                                          const spf::host::HostParameters& host,
-                                          const spf::OccupancyParameters& occupancy) {
+                                          const spf::host::HostParameters& host) {
   using Result = Converted<spf::OccupancyMap>;
   constexpr double kMostCells = 1 << 26;
   constexpr int kOccupied = 50;
@@ -352,7 +351,7 @@ Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid, c
       low + cell * Eigen::Vector2d{static_cast<double>(width), static_cast<double>(height)};
   try {
     // Shapes between nodes keep their exact distance, so nodes may be farther apart than cells.
-    spf::OccupancyMap map = spf::host::empty_map(low, high, spf::host::MapGrain::of(host), occupancy, cell);
+    spf::OccupancyMap map = spf::host::empty_map(low, high, spf::host::MapGrain::of(host), cell);
     map.add_border(low, high);
     for (std::size_t j = 0; j < height; ++j) {
       const auto row = grid.data.begin() + static_cast<std::ptrdiff_t>(j * width);

@@ -96,9 +96,9 @@ void add_plan(const spf::RobotAgent& agent, double now, Markers& markers) {
   line.color = robot_color(agent.robot_id(), 1.0F);
   sample(agent.committed(), now, [&](double time) {
     geometry_msgs::Point point;
-    const Eigen::Vector2d place = agent.committed().position(time);
-    point.x = place.x();
-    point.y = place.y();
+    const Eigen::Vector2d position = agent.committed().position(time);
+    point.x = position.x();
+    point.y = position.y();
     point.z = 0.05;
     line.points.push_back(point);
   });

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <spf_empc_msgs/Observation.h>
 
+#include "host/contradictions.hpp"
 #include "spf_empc_ros/conversions.hpp"
 
 namespace spf_empc_ros {
@@ -34,9 +35,21 @@ void PerceptionNode::refuse(const char* what, const std::string& why) {
 void PerceptionNode::on_scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
   const Converted<spf::RangeScan> ranges = from_message(*scan);
   if (!ranges) return refuse("scan", ranges.refusal);
+  check_sight(ranges->max_range);
   const Converted<spf::Pose2> sensor = frames_.place(scan->header.frame_id, base_frame_, ros::Time{});
   if (!sensor) return refuse("scan", sensor.refusal);
   publish(host_.add_scan(clock_.seconds(scan->header.stamp), *ranges, *sensor, now()), "scan");
+}
+
+/// What the file of the robot does not say: how far its scanner reaches. Looked at once.
+void PerceptionNode::check_sight(double range) {
+  if (sight_checked_) return;
+  sight_checked_ = true;
+  spf::host::OperatingConditions conditions;
+  conditions.sensing_range = range;
+  for (const spf::host::Contradiction& found : contradictions(config_.agent, config_.file.host, conditions))
+    if (found.key == "sensing.range")
+      ROS_WARN("the range of the scanner, %s, %s", found.value.c_str(), found.sentence.c_str());
 }
 
 void PerceptionNode::on_obstacles(const spf_empc_msgs::ObstacleTracks::ConstPtr& tracks) {

@@ -92,12 +92,12 @@ void PlannerNode::on_observation(const spf_empc_msgs::Observation::ConstPtr& obs
 
 void PlannerNode::on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
   if (trajectory->robot_id == static_cast<std::uint32_t>(config_.robot_id)) return;
-  const Converted<ToldTrajectory> told = from_message(*trajectory, clock_, config_.frame);
-  if (!told) {
+  const Converted<StampedTrajectory> received = from_message(*trajectory, clock_, config_.frame);
+  if (!received) {
     host_.planner().count_malformed_message();
-    return refuse("/swarm/trajectories", told.refusal);
+    return refuse("/swarm/trajectories", received.refusal);
   }
-  if (host_.add_message(told->message, now()) == spf::MessageVerdict::malformed)
+  if (host_.add_message(received->message, now()) == spf::MessageVerdict::malformed)
     refuse("/swarm/trajectories", "out of range");
 }
 
@@ -114,8 +114,7 @@ void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
 
 void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
   if (!config_.waits_for_map) return;
-  Converted<spf::OccupancyMap> known =
-      from_message(*map, config_.frame, config_.file.host, config_.agent.occupancy);
+  Converted<spf::OccupancyMap> known = from_message(*map, config_.frame, config_.file.host);
   if (!known) {
     host_.planner().count_refused_input();
     return refuse("/map", known.refusal);
@@ -157,11 +156,11 @@ void PlannerNode::step() {
 void PlannerNode::publish_plan(const spf::host::PlannerOutput& output) {
   const std::optional<double> observed =
       std::isfinite(output.observed) ? std::optional<double>{output.observed} : std::nullopt;
-  trajectory_.publish(to_message(ToldTrajectory{output.plan, observed}, clock_, config_.frame));
+  trajectory_.publish(to_message(StampedTrajectory{output.plan, observed}, clock_, config_.frame));
   if (tracks_.getNumSubscribers() > 0)
     tracks_.publish(to_message(host_.planner().agent()->tracks(), clock_, config_.frame));
   if (output.broadcast)
-    broadcast_.publish(to_message(ToldTrajectory{*output.broadcast, observed}, clock_, config_.frame));
+    broadcast_.publish(to_message(StampedTrajectory{*output.broadcast, observed}, clock_, config_.frame));
 }
 
 void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "config/contradiction_report.hpp"
 #include "spf_empc_ros/conversions.hpp"
 
 namespace spf_empc_ros {
@@ -47,7 +48,10 @@ int run_node(int argc, char** argv, const char* name, void (*body)(const RobotCo
   ros::init(argc, argv, name);
   const ros::NodeHandle own{"~"};
   try {
-    body(read_config(own));
+    const RobotConfig config = read_config(own);
+    for (const spf::InputProblem& warning : config.file.warnings)
+      ROS_WARN("%s", spf::warning_text(warning).c_str());
+    body(config);
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 1;

@@ -20,9 +20,14 @@ int main(int argc, char** argv) {
     for (int i = 2; i < argc; ++i) settings.push_back({argv[i], "argument " + std::to_string(i)});
     const spf::RunConfiguration config = spf::read_run_configuration(argv[1], settings);
     spf::RobotFile file = spf::default_robot_file(config.method, config.robot);
-    file.host.map_resolution = config.simulation.sensing.map_resolution;
-    file.host.map_reach = config.simulation.sensing.map_max_distance;
-    file.agent = spf::sim::agent_parameters_for(spf::make_trial(config, 0), spf::agent_parameters(config));
+    const spf::sim::Scenario trial = spf::make_trial(config, 0);
+    file.agent = spf::sim::agent_parameters_for(trial, spf::agent_parameters(config));
+    const spf::host::HostParameters derived = spf::sim::host_parameters_for(trial, file.agent);
+    file.host.map_resolution = derived.map_resolution;
+    file.host.map_reach = derived.map_reach;
+    file.host.plan_silence = derived.plan_silence;
+    file.host.command_silence = derived.command_silence;
+    file.host.clock_jump = derived.clock_jump;
     std::cout << spf::to_yaml_text(file, true);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

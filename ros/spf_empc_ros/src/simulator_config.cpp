@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "config/contradiction_report.hpp"
 #include "spf_empc_ros/conversions.hpp"
 #include "study/scenario_file.hpp"
 
@@ -70,6 +71,7 @@ void read_scenario(const ros::NodeHandle& own, SimulatorConfig& config, std::str
   }
   try {
     const spf::RunConfiguration run = spf::read_run_configuration(path, overrides(own));
+    for (const spf::InputProblem& warning : run.warnings) ROS_WARN("%s", spf::warning_text(warning).c_str());
     config.scenario = spf::make_trial(run, own.param("trial", 0));
     config.control_period = run.agent.tracker.control_period;
     config.map_resolution = 0.5 * run.simulation.sensing.map_resolution;

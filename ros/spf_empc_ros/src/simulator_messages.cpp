@@ -21,7 +21,7 @@ using spf::sim::World;
 
 constexpr std::int8_t kOccupied = 100;
 
-/// A grid under way: marks the cells whose centre a shape covers.
+/// A grid being filled: marks the cells whose centre a shape covers.
 class CellPainter {
  public:
   CellPainter(nav_msgs::OccupancyGrid& grid, const Eigen::Vector2d& low)
@@ -44,8 +44,8 @@ class CellPainter {
   }
 
  private:
-  [[nodiscard]] std::pair<long, long> cell_of(const Eigen::Vector2d& place) const {
-    const Eigen::Vector2d steps = (place - low_) / cell_;
+  [[nodiscard]] std::pair<long, long> cell_of(const Eigen::Vector2d& position) const {
+    const Eigen::Vector2d steps = (position - low_) / cell_;
     return {std::clamp(std::lround(std::floor(steps.x())), 0L, static_cast<long>(grid_.info.width) - 1),
             std::clamp(std::lround(std::floor(steps.y())), 0L, static_cast<long>(grid_.info.height) - 1)};
   }
@@ -56,21 +56,22 @@ class CellPainter {
 
 Box extent_of(const Scenario& scenario) {
   if (scenario.border) return *scenario.border;
-  const spf::GridFrame frame = spf::sim::robot_map(scenario, {}).frame();
+  const spf::GridFrame frame = spf::sim::robot_map(scenario).frame();
   return {frame.origin_world, frame.node_position(frame.width - 1, frame.height - 1)};
 }
 
 void paint_shapes(const Scenario& scenario, CellPainter& painter, double resolution) {
   for (const Box& box : scenario.boxes)
     painter.paint(box.low, box.high, 0.0,
-                  [&](const Eigen::Vector2d& place) { return spf::sim::distance_to_box(place, box); });
+                  [&](const Eigen::Vector2d& position) { return spf::sim::distance_to_box(position, box); });
   for (const Disc& disc : scenario.discs)
     painter.paint(disc.center, disc.center, disc.radius,
-                  [&](const Eigen::Vector2d& place) { return (place - disc.center).norm(); });
+                  [&](const Eigen::Vector2d& position) { return (position - disc.center).norm(); });
   // A thin wall covers no centre: its cells are those that it may cross.
   for (const Segment& wall : scenario.walls)
-    painter.paint(wall.from.cwiseMin(wall.to), wall.from.cwiseMax(wall.to), resolution * std::sqrt(0.5),
-                  [&](const Eigen::Vector2d& place) { return spf::sim::distance_to_segment(place, wall); });
+    painter.paint(
+        wall.from.cwiseMin(wall.to), wall.from.cwiseMax(wall.to), resolution * std::sqrt(0.5),
+        [&](const Eigen::Vector2d& position) { return spf::sim::distance_to_segment(position, wall); });
 }
 
 /// Markers of one array, by name and number.
@@ -90,23 +91,23 @@ class WorldMarkers {
     array_.markers.push_back(marker);
     return array_.markers.back();
   }
-  void disc(const char* name, int id, const Eigen::Vector2d& place, double radius, double height,
+  void disc(const char* name, int id, const Eigen::Vector2d& position, double radius, double height,
             const std_msgs::ColorRGBA& paint) {
     visualization_msgs::Marker& marker =
-        add(name, id, visualization_msgs::Marker::CYLINDER, {place, 0.0}, 0.5 * height);
+        add(name, id, visualization_msgs::Marker::CYLINDER, {position, 0.0}, 0.5 * height);
     marker.scale.x = marker.scale.y = 2.0 * radius;
     marker.scale.z = height;
     marker.color = paint;
   }
-  void line(const char* name, int id, const std::vector<Eigen::Vector2d>& places) {
+  void line(const char* name, int id, const std::vector<Eigen::Vector2d>& positions) {
     visualization_msgs::Marker& marker =
         add(name, id, visualization_msgs::Marker::LINE_STRIP, spf::Pose2{}, 0.05);
     marker.scale.x = 0.06;
     marker.color = color(0.2F, 0.2F, 0.2F);
-    for (const Eigen::Vector2d& place : places) {
+    for (const Eigen::Vector2d& position : positions) {
       geometry_msgs::Point point;
-      point.x = place.x();
-      point.y = place.y();
+      point.x = position.x();
+      point.y = position.y();
       marker.points.push_back(point);
     }
   }

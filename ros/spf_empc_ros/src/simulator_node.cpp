@@ -17,7 +17,7 @@ double wall_now() {
   return ros::WallTime::now().toSec();
 }
 
-/// The same place with a range sensor on every robot, whatever the robots are told of the map.
+/// The same scene with a range sensor on every robot, whatever the robots are told of the map.
 spf::sim::Scenario with_scans(spf::sim::Scenario scenario) {
   scenario.simulation.sensing.map = spf::sim::MapKnowledge::sensed;
   return scenario;

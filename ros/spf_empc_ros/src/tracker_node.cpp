@@ -70,14 +70,14 @@ void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
 }
 
 void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
-  const Converted<ToldTrajectory> told = from_message(*trajectory, clock_, config_.frame);
-  if (!told) {
+  const Converted<StampedTrajectory> received = from_message(*trajectory, clock_, config_.frame);
+  if (!received) {
     host_.tracker().count_refused_plan();
-    return refuse("trajectory", told.refusal);
+    return refuse("trajectory", received.refusal);
   }
-  const spf::host::PlanVerdict verdict = host_.add_plan(told->message, now());
+  const spf::host::PlanVerdict verdict = host_.add_plan(received->message, now());
   if (verdict != spf::host::PlanVerdict::accepted) return refuse("trajectory", to_string(verdict));
-  observed_ = told->observed;
+  observed_ = received->observed;
 }
 
 void TrackerNode::step() {

@@ -58,7 +58,7 @@ std::vector<LoggedTick> of_ros(std::vector<LoggedTick> ticks) {
     tick.input.pose = {held(tick.input.pose.time), held(tick.input.pose.pose_world)};
     for (spf::HeardMessage& message : tick.input.messages)
       message =
-          from_message(to_message(ToldTrajectory{message, {}}, kClock, kFrame), kClock, kFrame)->message;
+          from_message(to_message(StampedTrajectory{message, {}}, kClock, kFrame), kClock, kFrame)->message;
     for (spf::host::SensedWorld& seen : tick.input.seen) {
       seen.observation.time = held(seen.observation.time);
       if (!seen.observation.scan) continue;
@@ -126,16 +126,16 @@ class CompositionTest : public ::testing::Test {
 
   const spf::sim::Scenario scenario = sensed_swap();
   const spf::AgentParameters agent = spf::sim::agent_parameters_for(scenario, spf::AgentParameters{});
-  const spf::host::HostParameters host = spf::sim::host_parameters_for(scenario);
-  const spf::OccupancyMap map = spf::sim::robot_map(scenario, agent.occupancy);
+  const spf::host::HostParameters host = spf::sim::host_parameters_for(scenario, agent);
+  const spf::OccupancyMap map = spf::sim::robot_map(scenario);
   const spf::sim::RobotTask task = scenario.robots[kRobot];
   std::vector<LoggedTick> ticks;
 
  private:
   [[nodiscard]] static spf::TrajectoryMessage over_wire(const spf::TrajectoryMessage& message,
                                                         std::optional<double> observed) {
-    const ToldTrajectory told{message, observed};
-    return from_message(to_message(told, kClock, kFrame), kClock, kFrame)->message;
+    const StampedTrajectory stamped{message, observed};
+    return from_message(to_message(stamped, kClock, kFrame), kClock, kFrame)->message;
   }
 };
 

@@ -222,7 +222,7 @@ TEST(Conversions, MapThereAndBackAndRefused) {
   grid.data.assign(5000, 0);
   for (std::size_t i = 40; i < 45; ++i) grid.data[25 * 100 + i] = 100;  // x in [-1, -0.5], y in [0, 0.1]
   grid.data[10 * 100 + 10] = -1;                                        // unknown is free
-  const auto map = from_message(grid, "map", {}, {});
+  const auto map = from_message(grid, "map", {});
   ASSERT_TRUE(map) << map.refusal;
   EXPECT_NEAR(map->distance({0.5, 0.05}), 1.0, 0.01);
   EXPECT_NEAR(map->distance({-0.7, -0.4}), 0.4, 0.01);
@@ -230,14 +230,14 @@ TEST(Conversions, MapThereAndBackAndRefused) {
   const nav_msgs::OccupancyGrid shown = to_message(*map, "map");
   EXPECT_EQ(shown.data.size(), shown.info.width * shown.info.height);
   grid.data.pop_back();
-  EXPECT_EQ(from_message(grid, "map", {}, {}).refusal, "data has 4999 entries, not 5000");
+  EXPECT_EQ(from_message(grid, "map", {}).refusal, "data has 4999 entries, not 5000");
   grid.data.push_back(0);
   grid.info.resolution = 0.0F;
-  EXPECT_EQ(from_message(grid, "map", {}, {}).refusal, "resolution is not above 0");
+  EXPECT_EQ(from_message(grid, "map", {}).refusal, "resolution is not above 0");
   grid.info.width = 4000000000U;
-  EXPECT_EQ(from_message(grid, "map", {}, {}).refusal, "it has no cells, or too many");
+  EXPECT_EQ(from_message(grid, "map", {}).refusal, "it has no cells, or too many");
   grid.header.frame_id = "odom";
-  EXPECT_EQ(from_message(grid, "map", {}, {}).refusal, "its frame is 'odom', the fleet's is 'map'");
+  EXPECT_EQ(from_message(grid, "map", {}).refusal, "its frame is 'odom', the fleet's is 'map'");
 }
 
 TEST(Conversions, WheelSpeedsGoThereAndBackAndMustBeThree) {

@@ -15,6 +15,8 @@ TEST(RobotYaml, IsTheRobotOfTheScenarios) {
   expected.agent = spf::with_method(expected.agent, expected.method.method());
   EXPECT_EQ(spf::to_yaml_text(spf::read_robot_file(kConfig + "robot.yaml")), spf::to_yaml_text(expected));
   const spf::RunConfiguration config = spf::read_run_configuration(kConfig + "fleet.yaml");
+  EXPECT_TRUE(spf::read_robot_file(kConfig + "robot.yaml").warnings.empty());
+  EXPECT_TRUE(config.warnings.empty());
   spf::RobotFile of_scenario = expected;
   of_scenario.robot = config.robot;
   EXPECT_EQ(spf::to_yaml_text(of_scenario), spf::to_yaml_text(expected));

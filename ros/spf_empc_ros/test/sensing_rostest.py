@@ -58,7 +58,7 @@ class Sensing(OneRobotTest):
         begun = braking_begins(robot, since)
         self.assertIsNotNone(begun)
         self.assertLess(begun - since, LATEST)
-        # Believed, it plans from there: on a way that comes back to the middle of the hall, 2 m beside.
+        # Believed, it plans from there: on a path that comes back to the middle of the hall, 2 m beside.
         self.assertTrue(drive(robot), robot.status.reason)
         robot.distort = lambda x, y: (x, y)
         self.assertTrue(stands(robot))

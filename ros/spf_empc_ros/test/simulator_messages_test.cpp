@@ -30,9 +30,11 @@ Scenario place_with_shapes() {
   return scenario;
 }
 
-bool occupied_at(const nav_msgs::OccupancyGrid& grid, const Eigen::Vector2d& place) {
-  const auto i = static_cast<std::size_t>((place.x() - grid.info.origin.position.x) / grid.info.resolution);
-  const auto j = static_cast<std::size_t>((place.y() - grid.info.origin.position.y) / grid.info.resolution);
+bool occupied_at(const nav_msgs::OccupancyGrid& grid, const Eigen::Vector2d& position) {
+  const auto i =
+      static_cast<std::size_t>((position.x() - grid.info.origin.position.x) / grid.info.resolution);
+  const auto j =
+      static_cast<std::size_t>((position.y() - grid.info.origin.position.y) / grid.info.resolution);
   return grid.data.at(j * grid.info.width + i) >= 50;
 }
 
@@ -54,17 +56,17 @@ TEST(MapMessage, ShowsTheKnownShapesToHalfACell) {
 
 TEST(MapMessage, GivesARobotTheDistancesOfTheTruth) {
   const Scenario scenario = place_with_shapes();
-  const auto map = from_message(map_message(scenario, 0.05, kStamp), "map", {}, {});
+  const auto map = from_message(map_message(scenario, 0.05, kStamp), "map", {});
   ASSERT_TRUE(map) << map.refusal;
-  for (const Eigen::Vector2d& place :
+  for (const Eigen::Vector2d& position :
        {Eigen::Vector2d{-0.5, 0.5}, {1.6, 0.5}, {-2.0, 0.0}, {-3.5, -2.0}, {3.5, -0.9}, {0.5, 1.9}}) {
-    double truth = std::min({spf::sim::depth_inside(place, *scenario.border),
-                             spf::sim::distance_to_box(place, scenario.boxes[0]),
-                             (place - scenario.discs[0].center).norm() - scenario.discs[0].radius,
-                             spf::sim::distance_to_segment(place, scenario.walls[0])});
+    double truth = std::min({spf::sim::depth_inside(position, *scenario.border),
+                             spf::sim::distance_to_box(position, scenario.boxes[0]),
+                             (position - scenario.discs[0].center).norm() - scenario.discs[0].radius,
+                             spf::sim::distance_to_segment(position, scenario.walls[0])});
     truth = std::min(truth, map->max_distance());
     // A cell's corner stands out by at most its half diagonal, a wall's cells by one more.
-    EXPECT_NEAR(map->distance(place), truth, 0.05 * 1.5) << place.transpose();
+    EXPECT_NEAR(map->distance(position), truth, 0.05 * 1.5) << position.transpose();
   }
 }
 

@@ -65,7 +65,7 @@ class Driver:
                 self.publisher.publish(message)
             time.sleep(0.02)
 
-    def place(self):
+    def position(self):
         return self.odom[-1].pose.pose.position.x
 
     def speed(self):
@@ -115,9 +115,9 @@ class Simulator(unittest.TestCase):
         self.check_watchdog(driver)
         self.check_sensors(driver)
 
-        # The rest of the way, and the end.
+        # The rest of the path, and the end.
         driver.velocity = 0.5
-        self.assertTrue(wait_until(lambda: driver.place() > 1.9, 40.0), driver.place())
+        self.assertTrue(wait_until(lambda: driver.position() > 1.9, 40.0), driver.position())
         driver.velocity = 0.0
         self.assertTrue(wait_until(lambda: self.process.poll() is not None, 20.0))
         output = self.process.stdout.read()
@@ -135,7 +135,7 @@ class Simulator(unittest.TestCase):
         self.assertEqual((driver.goal.pose.position.x, driver.goal.pose.orientation.w), (2.0, 1.0))
 
     def check_watchdog(self, driver):
-        self.assertAlmostEqual(driver.place(), -2.0, delta=1e-9)
+        self.assertAlmostEqual(driver.position(), -2.0, delta=1e-9)
         driver.velocity = 0.4
         self.assertTrue(wait_until(lambda: abs(driver.speed() - 0.4) < 0.02, 10.0), driver.speed())
         driver.velocity = None
@@ -154,7 +154,7 @@ class Simulator(unittest.TestCase):
         disc = obstacles.tracks[0]
         self.assertAlmostEqual(disc.radius, 0.3, delta=1e-9)
         # The beam towards the disc ends at its rim.
-        x, y = disc.position.x - driver.place(), disc.position.y
+        x, y = disc.position.x - driver.position(), disc.position.y
         beam = int(round((math.atan2(y, x) - scan.angle_min) / scan.angle_increment)) % len(scan.ranges)
         self.assertAlmostEqual(scan.ranges[beam], math.hypot(x, y) - 0.3, delta=0.15)
 

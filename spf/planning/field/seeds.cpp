@@ -35,7 +35,7 @@ Eigen::Vector2d SeedMaker::on_path(double distance) const {
 LocalTarget SeedMaker::local_target(const PlanRequest& request, const CostToGo& guide,
                                     const ClearanceModel& clearance, double horizon) {
   path_.clear();
-  guide.way(request.head.position_world, path_);
+  guide.shortest_path(request.head.position_world, path_);
   if (path_.size() < 2) path_.assign({request.head.position_world, guide.goal_used()});
   const double whole = length_of(path_);
 

@@ -30,17 +30,17 @@ Instant instant_at(double ahead, const SpaceTimeRisk& risk) {
   return {static_cast<std::size_t>(floor), position - floor, 1.0 / risk.step()};
 }
 
-void add_agent(const SpaceTimeRisk::PredictedAgent& agent, const Instant& at, double rate,
-               const NodeSample& node, NodePenalty& penalty) {
-  const Eigen::Vector2d step = agent.mean_world[at.step + 1] - agent.mean_world[at.step];
-  const Eigen::Vector2d offset = node.position - agent.mean_world[at.step] - at.part * step;
-  const double sigma_step = agent.sigma[at.step + 1] - agent.sigma[at.step];
-  const double sigma = agent.sigma[at.step] + at.part * sigma_step;
+void add_disc(const SpaceTimeRisk::PredictedDisc& disc, const Instant& at, double rate,
+              const NodeSample& node, NodePenalty& penalty) {
+  const Eigen::Vector2d step = disc.mean_world[at.step + 1] - disc.mean_world[at.step];
+  const Eigen::Vector2d offset = node.position - disc.mean_world[at.step] - at.part * step;
+  const double sigma_step = disc.sigma[at.step + 1] - disc.sigma[at.step];
+  const double sigma = disc.sigma[at.step] + at.part * sigma_step;
   const double distance = offset.norm();
-  const double z = (distance - agent.radius) / sigma;
+  const double z = (distance - disc.radius) / sigma;
   if (z > kFarSigmas) return;
-  const double factor_step = agent.weight[at.step + 1] - agent.weight[at.step];
-  const double factor = rate * (agent.weight[at.step] + at.part * factor_step);
+  const double factor_step = disc.weight[at.step + 1] - disc.weight[at.step];
+  const double factor = rate * (disc.weight[at.step] + at.part * factor_step);
   const double chance = normal_tail(z);
   const double slope = -factor * density(z);  // dP / dz
   penalty.integrand += factor * chance;
@@ -61,7 +61,7 @@ void SpaceTimeCost::operator()(NodeSet& nodes) const {
     NodePenalty& penalty = nodes.penalty(k);
     const double ahead = node.time - start_time;
     const Instant at = instant_at(ahead, *risk);
-    for (int e = 0; e < risk->agent_count(); ++e) add_agent(risk->agent(e), at, rate, node, penalty);
+    for (int e = 0; e < risk->disc_count(); ++e) add_disc(risk->disc(e), at, rate, node, penalty);
 
     const double clearance = map->distance(node.position) - wanted_clearance;
     const double z = clearance / static_sigma;

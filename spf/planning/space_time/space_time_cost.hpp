@@ -1,7 +1,7 @@
 // Cost of the space-time field (our addition; docs/space_time.md): the probability of contact with moving
 // obstacles and peers at the node's time, and with static surfaces by their distance. Frame: world.
 //   P = price / exposure (sum_e w_e(t) Phi((R_e - d_e(t)) / sigma_e(t)) + Phi(-c / sigma_s)) [1/s] with d_e
-//   the distance to the mean of agent e at time t, w_e its discount, weight and size factor, c the clearance
+//   the distance to the mean of disc e at time t, w_e its discount, weight and size factor, c the clearance
 //   of the static map beyond what is wanted. Means and standard deviations are linear between the steps of
 //   SpaceTimeRisk; the gradients are exact for that interpolation.
 #pragma once

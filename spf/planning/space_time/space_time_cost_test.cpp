@@ -111,7 +111,7 @@ TEST(SpaceTimeCost, NodeGradientInPlaceAndTime) {
         << "place " << place.transpose() << " time " << time;
     felt += at.wrt_position.norm() > 1.0 && std::abs(at.wrt_time) > 1.0 ? 1 : 0;
   }
-  EXPECT_GT(felt, 500);  // most of these points are near an agent
+  EXPECT_GT(felt, 500);  // most of these points are near a disc
 }
 
 TEST(SpaceTimeCost, IsThePriceOfTheChanceThatTheRiskTells) {
@@ -123,8 +123,8 @@ TEST(SpaceTimeCost, IsThePriceOfTheChanceThatTheRiskTells) {
     const Eigen::Vector2d place{random.uniform(0.0, 5.0), random.uniform(-1.5, 1.5)};
     const int step = static_cast<int>(random.uniform(0.0, 31.0));
     double sum = 0.0;
-    for (int e = 0; e < scene.risk.agent_count(); ++e)
-      sum += scene.risk.chance(scene.risk.agent(e), step, place);
+    for (int e = 0; e < scene.risk.disc_count(); ++e)
+      sum += scene.risk.chance(scene.risk.disc(e), step, place);
     const double integrand = node.ask(scene.cost, place, kStart + 0.1 * step).integrand;
     // The risk cuts tails off at 4 sigma (3e-5 each), the cost at 5.
     EXPECT_NEAR(integrand * scene.cost.exposure / scene.cost.price, sum, 5 * 3.2e-5);

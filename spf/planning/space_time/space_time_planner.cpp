@@ -178,11 +178,11 @@ void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult
   }
 }
 
-/// Names the agent that shapes the plan most, then tries all other primitives.
+/// Names the disc that shapes the plan most, then tries all other primitives.
 void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& direct, PlanResult& result) {
   if (direct.worst >= 0) {
-    const SpaceTimeRisk::PredictedAgent& agent = risk_.agent(direct.worst);
-    (agent.is_peer ? result.blocking_peer : result.blocking_track) = agent.id;
+    const SpaceTimeRisk::PredictedDisc& disc = risk_.disc(direct.worst);
+    (disc.is_peer ? result.blocking_peer : result.blocking_track) = disc.id;
   }
   const Eigen::Vector2d still = Eigen::Vector2d::Zero();
   const bool slow = request.head.velocity_world.norm() < 0.3 * robot_.max_speed;

@@ -32,7 +32,7 @@ class SpaceTimePlanner final : public Planner {
     double time = 0.0;    ///< [s] travel time to the goal along it
     double risk = 0.0;    ///< [s] cost of the probability of contact
     double chance = 0.0;  ///< [1] that probability; a sum, which may exceed 1
-    int worst = -1;       ///< agent that contributes most, -1 = none
+    int worst = -1;       ///< disc that contributes most, -1 = none
     [[nodiscard]] double total() const { return time + risk; }
   };
   [[nodiscard]] Score score(const RollOut& roll_out, const PlanRequest& request, double enough) const;

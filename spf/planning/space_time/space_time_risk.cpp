@@ -33,7 +33,7 @@ SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot
 }
 
 void SpaceTimeRisk::prepare(const PlanRequest& request) {
-  agent_count_ = 0;
+  disc_count_ = 0;
   order_.clear();
   const std::vector<ObstacleTrack> no_tracks;
   const std::vector<Peer> no_peers;
@@ -57,9 +57,9 @@ void SpaceTimeRisk::prepare(const PlanRequest& request) {
     const double reach = 2.0 * max_speed_ * horizon + peer.radius + peer.growth + 4.0 * robot_radius_;
     if (gap < reach) order_.emplace_back(gap, -1 - static_cast<int>(i));
   }
-  if (order_.size() > kMaxAgents) {
-    std::nth_element(order_.begin(), order_.begin() + kMaxAgents, order_.end());
-    order_.resize(kMaxAgents);
+  if (order_.size() > kMaxDiscs) {
+    std::nth_element(order_.begin(), order_.begin() + kMaxDiscs, order_.end());
+    order_.resize(kMaxDiscs);
   }
   for (const auto& [gap, index] : order_) {
     if (index >= 0) {
@@ -70,69 +70,69 @@ void SpaceTimeRisk::prepare(const PlanRequest& request) {
   }
 }
 
-SpaceTimeRisk::PredictedAgent* SpaceTimeRisk::next_agent() {
-  const auto next = static_cast<std::size_t>(agent_count_++);
-  if (next == agents_.size()) agents_.emplace_back();
-  return &agents_[next];
+SpaceTimeRisk::PredictedDisc* SpaceTimeRisk::next_disc() {
+  const auto next = static_cast<std::size_t>(disc_count_++);
+  if (next == discs_.size()) discs_.emplace_back();
+  return &discs_[next];
 }
 
 void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& track) {
   const double lead = request.time - track.time;  // the track may be older than the plan's start
   const ObstaclePrediction prediction{track, lead + steps_ * parameters_.step, parameters_.step,
                                       parameters_.predict_bounces ? request.world.map : nullptr};
-  PredictedAgent& agent = *next_agent();
-  agent.id = track.id;
-  agent.is_peer = false;
-  agent.stopped = false;
-  agent.priority_weight = 1.0;
-  agent.radius = robot_radius_ + track.state.radius + parameters_.margin;
+  PredictedDisc& disc = *next_disc();
+  disc.id = track.id;
+  disc.is_peer = false;
+  disc.stopped = false;
+  disc.priority_weight = 1.0;
+  disc.radius = robot_radius_ + track.state.radius + parameters_.margin;
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    agent.mean_world[at] = prediction.position(lead + k * parameters_.step);
-    agent.sigma[at] = std::hypot(prediction.sigma(lead + k * parameters_.step), parameters_.sigma_floor);
+    disc.mean_world[at] = prediction.position(lead + k * parameters_.step);
+    disc.sigma[at] = std::hypot(prediction.sigma(lead + k * parameters_.step), parameters_.sigma_floor);
   }
-  finish(agent, request.position_sigma);
+  finish(disc, request.position_sigma);
 }
 
 void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
-  PredictedAgent& agent = *next_agent();
-  agent.id = peer.robot_id;
-  agent.is_peer = true;
+  PredictedDisc& disc = *next_disc();
+  disc.id = peer.robot_id;
+  disc.is_peer = true;
   // A stopped peer cannot be asked to yield; a moving one of lower priority will.
   const bool yields =
       goes_first(request.world.rank(), peer.rank()) && peer.state == PeerState::moving && !peer.expired;
-  agent.priority_weight = yields ? kLowerPriorityWeight : 1.0;
-  agent.radius = robot_radius_ + peer.radius + peer.growth + parameters_.peer_margin;
+  disc.priority_weight = yields ? kLowerPriorityWeight : 1.0;
+  disc.radius = robot_radius_ + peer.radius + peer.growth + parameters_.peer_margin;
   // A stopped peer starts moving only to dodge or to go on.
   const bool stopped = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
-  agent.stopped = stopped && !peer.expired;
+  disc.stopped = stopped && !peer.expired;
   const double growth = parameters_.peer_sigma_growth * (stopped ? kStoppedPeerGrowth : 1.0);
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double ahead = k * parameters_.step;
-    agent.mean_world[at] = peer.position(request.time + ahead);
-    agent.sigma[at] = std::hypot(parameters_.peer_sigma + growth * ahead, peer.position_sigma);
+    disc.mean_world[at] = peer.position(request.time + ahead);
+    disc.sigma[at] = std::hypot(parameters_.peer_sigma + growth * ahead, peer.position_sigma);
   }
-  finish(agent, request.position_sigma);
+  finish(disc, request.position_sigma);
 }
 
-void SpaceTimeRisk::finish(PredictedAgent& agent, double own_sigma) {
+void SpaceTimeRisk::finish(PredictedDisc& disc, double own_sigma) {
   for (int k = 0; k <= steps_; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    agent.sigma[at] = std::hypot(agent.sigma[at], own_sigma);
-    agent.weight[at] = normal_within(agent.radius / agent.sigma[at]) *
-                       (agent.is_peer ? peer_discount_ : discount_)[at] * agent.priority_weight;
-    agent.reach[at] = agent.radius + kNegligibleSigmas * agent.sigma[at];
+    disc.sigma[at] = std::hypot(disc.sigma[at], own_sigma);
+    disc.weight[at] = normal_within(disc.radius / disc.sigma[at]) *
+                      (disc.is_peer ? peer_discount_ : discount_)[at] * disc.priority_weight;
+    disc.reach[at] = disc.radius + kNegligibleSigmas * disc.sigma[at];
   }
 }
 
-double SpaceTimeRisk::chance(const PredictedAgent& agent, int step,
+double SpaceTimeRisk::chance(const PredictedDisc& disc, int step,
                              const Eigen::Vector2d& position_world) const {
   const auto at = static_cast<std::size_t>(step);
-  const double squared = (position_world - agent.mean_world[at]).squaredNorm();
-  if (squared > agent.reach[at] * agent.reach[at]) return 0.0;
-  const double z = (std::sqrt(squared) - agent.radius) / agent.sigma[at];
-  return normal_tail(z) * agent.weight[at];
+  const double squared = (position_world - disc.mean_world[at]).squaredNorm();
+  if (squared > disc.reach[at] * disc.reach[at]) return 0.0;
+  const double z = (std::sqrt(squared) - disc.radius) / disc.sigma[at];
+  return normal_tail(z) * disc.weight[at];
 }
 
 double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
@@ -140,13 +140,13 @@ double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& po
   double sum = 0.0;
   double largest = 0.0;
   if (worst != nullptr) *worst = -1;
-  for (int i = 0; i < agent_count_; ++i) {
-    const PredictedAgent& agent = agents_[static_cast<std::size_t>(i)];
-    double peak = chance(agent, steps, stop_world);
-    if (agent.stopped) peak /= peer_discount_[static_cast<std::size_t>(steps)];
+  for (int i = 0; i < disc_count_; ++i) {
+    const PredictedDisc& disc = discs_[static_cast<std::size_t>(i)];
+    double peak = chance(disc, steps, stop_world);
+    if (disc.stopped) peak /= peer_discount_[static_cast<std::size_t>(steps)];
     for (int k = 1; k <= steps; ++k) {
-      if (agent.weight[static_cast<std::size_t>(k)] <= peak) continue;  // cannot exceed the peak
-      peak = std::max(peak, chance(agent, k, positions[static_cast<std::size_t>(k)]));
+      if (disc.weight[static_cast<std::size_t>(k)] <= peak) continue;  // cannot exceed the peak
+      peak = std::max(peak, chance(disc, k, positions[static_cast<std::size_t>(k)]));
     }
     sum += peak;
     if (peak > largest) {

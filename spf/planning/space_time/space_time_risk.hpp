@@ -21,12 +21,12 @@ namespace spf {
 class SpaceTimeRisk {
  public:
   static constexpr int kMaxSteps = 30;
-  static constexpr int kMaxAgents = 48;
+  static constexpr int kMaxDiscs = 48;
   static constexpr double kLowerPriorityWeight =
       0.3;  ///< [1] of the risk with peers that yield to this robot
 
   /// One obstacle or peer: its predicted position at each step.
-  struct PredictedAgent {
+  struct PredictedDisc {
     int id = -1;
     bool is_peer = false;
     bool stopped =
@@ -41,32 +41,30 @@ class SpaceTimeRisk {
 
   SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed);
 
-  /// Tabulates every obstacle and peer that can come near within the horizon (the nearest kMaxAgents of
+  /// Tabulates every obstacle and peer that can come near within the horizon (the nearest kMaxDiscs of
   /// them). Allocates only when there are more of them than ever before.
   void prepare(const PlanRequest& request);
 
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] double step() const { return parameters_.step; }  ///< [s]
-  [[nodiscard]] int agent_count() const { return agent_count_; }
-  [[nodiscard]] const PredictedAgent& agent(int index) const {
-    return agents_[static_cast<std::size_t>(index)];
-  }
+  [[nodiscard]] int disc_count() const { return disc_count_; }
+  [[nodiscard]] const PredictedDisc& disc(int index) const { return discs_[static_cast<std::size_t>(index)]; }
 
-  /// Discounted and weighted probability of contact at one step with one agent, in [0, 1].
-  [[nodiscard]] double chance(const PredictedAgent& agent, int step,
+  /// Discounted and weighted probability of contact at one step with one disc, in [0, 1].
+  [[nodiscard]] double chance(const PredictedDisc& disc, int step,
                               const Eigen::Vector2d& position_world) const;
 
-  /// Sum over agents of the largest discounted probability along positions[1..steps] and at stop_world, where
+  /// Sum over discs of the largest discounted probability along positions[1..steps] and at stop_world, where
   /// the robot would come to rest if it braked at the end, at the last step's time; returns early once the
-  /// sum exceeds `enough`. `worst` receives the index of the agent that contributes most, -1 for none.
+  /// sum exceeds `enough`. `worst` receives the index of the disc that contributes most, -1 for none.
   [[nodiscard]] double along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& positions, int steps,
                              const Eigen::Vector2d& stop_world, double enough, int* worst = nullptr) const;
 
  private:
   void add_track(const PlanRequest& request, const ObstacleTrack& track);
   void add_peer(const PlanRequest& request, const Peer& peer);
-  [[nodiscard]] PredictedAgent* next_agent();
-  void finish(PredictedAgent& agent, double own_sigma);
+  [[nodiscard]] PredictedDisc* next_disc();
+  void finish(PredictedDisc& disc, double own_sigma);
 
   SpaceTimeParameters parameters_;
   double robot_radius_;
@@ -74,10 +72,9 @@ class SpaceTimeRisk {
   int steps_;
   std::array<double, kMaxSteps + 1> discount_;
   std::array<double, kMaxSteps + 1> peer_discount_;
-  std::vector<PredictedAgent>
-      agents_;  // the first agent_count_ are valid; kept for their memory of 1.3 KB each
+  std::vector<PredictedDisc> discs_;  // the first disc_count_ are valid; kept for their memory of 1.3 KB each
   std::vector<std::pair<double, int>> order_;
-  int agent_count_ = 0;
+  int disc_count_ = 0;
 };
 
 }  // namespace spf

@@ -83,8 +83,8 @@ TEST(SpaceTimeRisk, LeavesOutWhatCannotComeNear) {
   scene.tracks[1].velocity_diffusion = 0.0;
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
-  ASSERT_EQ(risk.agent_count(), 1);
-  EXPECT_EQ(risk.agent(0).id, 3);
+  ASSERT_EQ(risk.disc_count(), 1);
+  EXPECT_EQ(risk.disc(0).id, 3);
 }
 
 TEST(SpaceTimeRisk, KeepsTheNearestWhenThereAreTooMany) {
@@ -93,8 +93,8 @@ TEST(SpaceTimeRisk, KeepsTheNearestWhenThereAreTooMany) {
     scene.tracks.push_back(track_at(i, {0.01 * (200 - i) + 1.0, 0.0}, {0.0, 0.0}));
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
-  ASSERT_EQ(risk.agent_count(), SpaceTimeRisk::kMaxAgents);
-  for (int i = 0; i < risk.agent_count(); ++i) EXPECT_GE(risk.agent(i).id, 200 - SpaceTimeRisk::kMaxAgents);
+  ASSERT_EQ(risk.disc_count(), SpaceTimeRisk::kMaxDiscs);
+  for (int i = 0; i < risk.disc_count(); ++i) EXPECT_GE(risk.disc(i).id, 200 - SpaceTimeRisk::kMaxDiscs);
 }
 
 // An obstacle that crosses x = 2 at t = 1: resting there then is dangerous, resting where it has been is not.
@@ -104,10 +104,10 @@ TEST(SpaceTimeRisk, KnowsWhenAnObstacleIsWhere) {
   scene.tracks[0].velocity_diffusion = 0.0;
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
-  ASSERT_EQ(risk.agent_count(), 1);
+  ASSERT_EQ(risk.disc_count(), 1);
   const double discount = std::exp(-1.0 / 0.7);
-  EXPECT_NEAR(risk.chance(risk.agent(0), 10, {2.0, 0.0}), discount, 1e-9);  // 27 sigma inside
-  EXPECT_EQ(risk.chance(risk.agent(0), 30, {2.0, -1.0}), 0.0);              // it is 3 m away by then
+  EXPECT_NEAR(risk.chance(risk.disc(0), 10, {2.0, 0.0}), discount, 1e-9);  // 27 sigma inside
+  EXPECT_EQ(risk.chance(risk.disc(0), 30, {2.0, -1.0}), 0.0);              // it is 3 m away by then
   EXPECT_GT(standing_risk(risk, {2.0, 0.0}), 0.9 * discount);
 }
 

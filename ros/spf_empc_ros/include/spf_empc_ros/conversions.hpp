@@ -40,20 +40,20 @@ struct Converted {
 [[nodiscard]] std::string plain_frame(const std::string& frame);
 
 // ---- trajectories of the fleet
-struct ToldTrajectory {
+struct StampedTrajectory {
   spf::TrajectoryMessage message;
   std::optional<double> observed;  ///< [s] when the newest observation behind it was made
 };
-[[nodiscard]] spf_empc_msgs::Trajectory to_message(const ToldTrajectory& told, const ClockEdge& clock,
+[[nodiscard]] spf_empc_msgs::Trajectory to_message(const StampedTrajectory& stamped, const ClockEdge& clock,
                                                    const std::string& frame);
-[[nodiscard]] Converted<ToldTrajectory> from_message(const spf_empc_msgs::Trajectory& message,
-                                                     const ClockEdge& clock, const std::string& frame);
+[[nodiscard]] Converted<StampedTrajectory> from_message(const spf_empc_msgs::Trajectory& message,
+                                                        const ClockEdge& clock, const std::string& frame);
 
 // ---- what the wheels are told: rim speeds [m/s], wheel 1 first
 [[nodiscard]] spf_empc_msgs::WheelSpeeds to_message(const Eigen::Vector3d& wheel_speeds, double limit);
 [[nodiscard]] Converted<Eigen::Vector3d> from_message(const spf_empc_msgs::WheelSpeeds& message);
 
-// ---- what is sensed. Positions are moved by `fleet_from_message`, the place of the message's frame in the
+// ---- what is sensed. Positions are moved by `fleet_from_message`, the pose of the message's frame in the
 // fleet's.
 [[nodiscard]] Converted<spf::Pose2> from_message(const geometry_msgs::Pose& pose);
 [[nodiscard]] geometry_msgs::Pose to_message(const spf::Pose2& pose);
@@ -76,8 +76,7 @@ struct ToldTrajectory {
 // ---- maps: cells of 50 or more are occupied, unknown ones are free, and the world ends at the edges.
 [[nodiscard]] Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid,
                                                         const std::string& frame,
-                                                        const spf::host::HostParameters& host,
-                                                        const spf::OccupancyParameters& occupancy);
+                                                        const spf::host::HostParameters& host);
 [[nodiscard]] nav_msgs::OccupancyGrid to_message(const spf::OccupancyMap& map, const std::string& frame);
 
 }  // namespace spf_empc_ros

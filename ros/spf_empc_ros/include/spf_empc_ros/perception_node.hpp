@@ -31,6 +31,7 @@ class PerceptionNode {
   void publish(const std::optional<spf::host::SensedWorld>& sensed, const char* what);
   void report();
   void refuse(const char* what, const std::string& why);
+  void check_sight(double range);
   [[nodiscard]] double now() const { return clock_.seconds(ros::Time::now()); }
 
   ros::NodeHandle node_;
@@ -45,6 +46,7 @@ class PerceptionNode {
   std::string base_frame_;
   std::string last_refusal_;
   std::uint32_t refused_ = 0;
+  bool sight_checked_ = false;
 };
 
 }  // namespace spf_empc_ros

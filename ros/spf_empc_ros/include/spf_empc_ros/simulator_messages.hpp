@@ -31,7 +31,7 @@ struct Stamp {
 /// A measured pose, with the true motion of the body and the noise as covariance.
 [[nodiscard]] nav_msgs::Odometry odometry_message(const spf::sim::World& world, int robot,
                                                   const spf::Pose2& measured, const Stamp& stamp);
-/// The true place of every robot's base.
+/// The true pose of every robot's base.
 [[nodiscard]] std::vector<geometry_msgs::TransformStamped> transforms(const spf::sim::World& world,
                                                                       const Stamp& stamp);
 [[nodiscard]] sensor_msgs::LaserScan scan_message(const spf::RangeScan& scan, double rate, int robot,
@@ -42,7 +42,7 @@ struct Stamp {
                                                               const Stamp& stamp);
 [[nodiscard]] geometry_msgs::PoseStamped goal_message(const spf::sim::RobotTask& task, const Stamp& stamp);
 
-/// The map that the robots are given: the border's inside (or all there is, where the place is open), with
+/// The map that the robots are given: the border's inside (or all there is, where the scene is open), with
 /// the static shapes when the scenario says that they are known. A cell is occupied when its centre is.
 [[nodiscard]] nav_msgs::OccupancyGrid map_message(const spf::sim::Scenario& scenario, double resolution,
                                                   const Stamp& stamp);
