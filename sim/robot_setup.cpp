@@ -85,6 +85,7 @@ host::HostParameters host_parameters_for(const Scenario& scenario) {
   host.relies_on_scan = false;
   host.relies_on_obstacles = simulation.trial.tracking == TrackingMode::full;
   host.trusts_peers = true;
+  host.guard.enabled = simulation.sensing.guard && simulation.trial.tracking == TrackingMode::full;
   return host;
 }
 

@@ -104,6 +104,7 @@ struct SensingParameters {
   int beams = 180;                    ///< [1] of a full turn
   double range_sigma = 0.0;           ///< [m] noise of one beam
   double rate = 10.0;                 ///< [Hz] of detections and scans
+  bool guard = false;                 ///< scans guard the robots' way, where there are any
   double map_resolution = 0.1;        ///< [m] of the robots' grids (coarser where they had too many nodes)
   double map_max_distance = 2.0;      ///< [m] beyond which the grids need not know distances
 
@@ -121,6 +122,8 @@ struct SensingParameters {
     visit("beams", self.beams, "1", Range{3, 3600}, "beams of one turn of the range sensor");
     visit("range_sigma", self.range_sigma, "m", Range{0.0, 10.0}, "noise of one beam");
     visit("rate", self.rate, "Hz", Range{0.1, 200.0}, "rate of detections and scans");
+    visit("guard", self.guard,
+          "raw scans slow and stop robots before what is in their way, where they have a range sensor");
     visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
           "node distance of the robots' grids");
     visit("map_max_distance", self.map_max_distance, kMetresBySize, Range{0.01, 100.0},
