@@ -26,7 +26,9 @@ void Commitment::begin_plan(const std::optional<StateEstimate>& estimate, PlanRe
   const Pose2& pose = estimate->pose_world;
   const Eigen::Vector2d error = pose.position_world - request.head.position_world;
   const double noise = 4.0 * std::sqrt(estimate->position_variance);
-  if (error.norm() > (hold ? noise : std::max(reanchor_distance_, noise))) {
+  // One that is only slowed down goes on along its plan while it is near it.
+  const bool stands = hold && hold->stands;
+  if (error.norm() > (stands ? noise : std::max(reanchor_distance_, noise))) {
     const Eigen::Vector3d twist = hold ? hold->twist_world : Eigen::Vector3d{Eigen::Vector3d::Zero()};
     request.head = {pose.position_world, twist.head<2>(), Eigen::Vector2d::Zero()};
     request.heading = {pose.heading, twist.z()};
