@@ -122,8 +122,7 @@ struct SensingParameters {
     visit("beams", self.beams, "1", Range{3, 3600}, "beams of one turn of the range sensor");
     visit("range_sigma", self.range_sigma, "m", Range{0.0, 10.0}, "noise of one beam");
     visit("rate", self.rate, "Hz", Range{0.1, 200.0}, "rate of detections and scans");
-    visit("guard", self.guard,
-          "raw scans slow and stop robots before what is in their way, where they have a range sensor");
+    visit("guard", self.guard, "raw scans, where there are any, slow and stop robots before what is ahead");
     visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
           "node distance of the robots' grids");
     visit("map_max_distance", self.map_max_distance, kMetresBySize, Range{0.01, 100.0},
