@@ -108,6 +108,7 @@ ReplayStateKind kind_of(const sim::RecordedRobot& robot) {
     case StopCause::obstacle_ahead:
     case StopCause::peer_ahead:
     case StopCause::paused:
+    case StopCause::in_the_way:
       return ReplayStateKind::waiting;
     default:  // a fault of the planner, or one that its host's watchdog found
       return ReplayStateKind::trouble;

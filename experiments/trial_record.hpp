@@ -70,6 +70,8 @@ struct RobotRecord {
   std::int64_t failed_plans = 0;
   std::int64_t optimiser_calls = 0;   ///< L-BFGS runs
   std::int64_t inner_iterations = 0;  ///< in all of them
+  int guard_stops = 0;                ///< by the guard
+  double guard_held = 0.0;            ///< [s] in which the guard slowed or stopped it
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -83,6 +85,10 @@ struct RobotRecord {
     visit.whole("failed_plans", self.failed_plans, 0, kMostCalls);
     visit.whole("optimiser_calls", self.optimiser_calls, 0, kMostCalls);
     visit.whole("inner_iterations", self.inner_iterations, 0, kMostCalls);
+    if (visit.present("guard_stops", self.guard_held > 0.0)) {
+      visit.whole("guard_stops", self.guard_stops, 0, kMostContacts);
+      visit.number("guard_held", self.guard_held, kTime);
+    }
   }
 };
 

@@ -61,6 +61,8 @@ RobotRecord robot_record(const sim::RobotResult& robot) {
   record.failed_plans = robot.failed_plans;
   record.optimiser_calls = robot.optimiser_calls;
   record.inner_iterations = robot.inner_iterations;
+  record.guard_stops = robot.guard_stops;
+  record.guard_held = robot.guard_held;
   return record;
 }
 

@@ -126,6 +126,7 @@ class Bench {
   bool send_scans = true;
   bool send_detections = true;
   bool planner_alive = true;
+  bool planner_sees_scans = true;  // or the guard alone
   std::function<Pose2(const Pose2&)> distort;
   std::function<void()> each_tenth;
   std::vector<Pillar> pillars;
@@ -143,8 +144,7 @@ class Bench {
     if (planner_alive) planning.add_pose(measured, now);
   }
   void observe() {
-    if (!planner_alive) return;
-    if (send_detections) {
+    if (send_detections && planner_alive) {
       SensedWorld sensed;
       sensed.observation.time = now;
       sensed.has_detections = true;
@@ -154,7 +154,8 @@ class Bench {
     SensedWorld sensed;
     sensed.observation.time = now;
     sensed.observation.scan = scan();
-    tell_seen(sensed);
+    if (split) driving.add_scan(now, *sensed.observation.scan, Pose2{}, now);
+    if (planner_alive && planner_sees_scans) tell_seen(sensed);
   }
   void tell_seen(const SensedWorld& sensed) {
     if (split)
@@ -187,7 +188,7 @@ class Bench {
   }
   void control() {
     const TrackerCommand& command = split ? driving.step(now) : robot.control(now);
-    if (split && planner_alive) planning.add_command(now, command.wheel_speeds, now);
+    if (split && planner_alive) planning.add_command(now, command.wheel_speeds, now, command.guard.action);
     const Eigen::Vector3d twist = twist_in_world(command.twist_body, pose.heading);
     hardest_braking = std::max(hardest_braking, (speed() - twist.head<2>().norm()) / (5.0 * kTick));
     velocity_world = twist.head<2>();

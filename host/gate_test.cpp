@@ -114,6 +114,11 @@ TEST(TrackerProcess, StandsUntilItKnowsWhereItIsAndWhatToDo) {
   TrackerProcess host{0, AgentParameters{}, HostParameters{}};
   EXPECT_EQ(host.step(10.0).stop, StopCause::no_pose);
   host.add_pose(at(10.0, 0.0), 10.0);
+  EXPECT_EQ(host.step(10.0).stop, StopCause::no_scan);  // its guard would be blind
+  RangeScan scan;
+  scan.angle_increment = 0.1;
+  scan.ranges.assign(60, kInfinity);
+  ASSERT_TRUE(host.add_scan(10.0, scan, Pose2{}, 10.0));
   EXPECT_EQ(host.step(10.0).stop, StopCause::no_plan);
   // A plan that begins elsewhere is not chased.
   host.add_plan(told(0, 10.0, standing(2.0, 10.0)), 10.0);

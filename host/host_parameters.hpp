@@ -2,6 +2,7 @@
 // honest sensor, clock or peer would say.
 #pragma once
 
+#include "host/guard_parameters.hpp"
 #include "spf/math/parameters.hpp"
 
 namespace spf::host {
@@ -24,6 +25,7 @@ struct HostParameters {
   double grid_size = 40.0;           ///< [m] side of the sensed map, around the start, where no map is given
   double map_resolution = 0.1;       ///< [m] node distance of the map, given or sensed
   double map_reach = 2.0;            ///< [m] up to which its distances are exact
+  GuardParameters guard;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -60,6 +62,7 @@ struct HostParameters {
           "node distance of the map; a given one with coarser cells keeps those");
     visit("map_reach", self.map_reach, kMetresBySize, Range{0.01, 100.0},
           "distances to static surfaces are exact up to here");
+    visit.group("guard", self.guard);
   }
 };
 

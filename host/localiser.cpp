@@ -37,6 +37,7 @@ void Localiser::advance_to(double now) {
   if (!standing_ && now - command_time_ > command_silence_) {
     estimator_.apply(command_time_ + command_silence_, Eigen::Vector3d::Zero());
     standing_ = true;
+    guard_ = GuardAction::none;
   }
   estimator_.advance_to(now);
 }

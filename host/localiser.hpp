@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/pose_gate.hpp"
+#include "host/scan_guard.hpp"
 #include "host/step_clock.hpp"
 #include "spf/localisation/motion_estimator.hpp"
 #include "spf/team/agent_parameters.hpp"
@@ -27,6 +28,8 @@ class Localiser {
   /// applied. Those that are not finite count as none. What is older than the last is ignored; the caller
   /// sees to it that nothing lies ahead of the present, where it would carry the estimate.
   void applied(double time, const Eigen::Vector3d& wheel_speeds);
+  /// What the guard made of the last command.
+  void note_guard(GuardAction action) { guard_ = action; }
   /// Without a word of what is applied for HostParameters::command_silence the wheels are taken to stand, as
   /// bases do that are told nothing.
   void advance_to(double now);
@@ -42,6 +45,8 @@ class Localiser {
   [[nodiscard]] StateEstimate estimate(double time) const { return estimator_.estimate(time); }
   /// state(), for displays.
   [[nodiscard]] AgentEstimate belief() const;
+  /// That of the last note_guard(), while commands come.
+  [[nodiscard]] GuardAction guard() const { return guard_; }
   [[nodiscard]] bool has_pose() const { return gate_.last().has_value(); }
   [[nodiscard]] double pose_age(double now) const { return gate_.age(now); }  ///< [s] infinite without one
   [[nodiscard]] double command_age(double now) const { return now - command_time_; }  ///< [s] likewise
@@ -53,6 +58,7 @@ class Localiser {
   double command_silence_;        // [s]
   double command_time_ = kNever;  // [s] when the last command was applied
   bool standing_ = true;          // no command is in force
+  GuardAction guard_ = GuardAction::none;
   std::uint32_t poses_refused_ = 0;
 };
 

@@ -226,6 +226,15 @@ const PlannerOutput& PlannerHost::step(double now, const Localiser* localiser) {
   return output_;
 }
 
+/// The guard lets the robot do less than was planned.
+std::optional<Hold> PlannerHost::hold(const Localiser* localiser) const {
+  if (localiser == nullptr || localiser->guard() == GuardAction::none) return std::nullopt;
+  const MotionState motion = localiser->state();
+  const OmniKinematics kinematics{agent_parameters_.robot};
+  return Hold{kinematics.twist_world(motion.command, motion.estimate.pose_world.heading),
+              localiser->guard() == GuardAction::stops};
+}
+
 /// Nobody looks, and nobody is relied on to: what was seen once is let go in time.
 void PlannerHost::let_go(double now) {
   const double last = std::max(last_scan_time_, last_detections_time_);
@@ -239,7 +248,7 @@ void PlannerHost::plan(double now, const Localiser* localiser) {
   let_go(now);
   std::optional<StateEstimate> state;
   if (localiser != nullptr) state = localiser->estimate(now);
-  std::optional<TrajectoryMessage> told = agent_->plan(now, state, stop_cause_);
+  std::optional<TrajectoryMessage> told = agent_->plan(now, state, stop_cause_, hold(localiser));
   ++counts_.plans;
   output_.planned = true;
   if (told) {

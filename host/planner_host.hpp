@@ -118,6 +118,7 @@ class PlannerHost {
   void start_when_ready(double now, const Localiser& localiser);
   [[nodiscard]] ObservationVerdict judge(const SensedWorld& sensed, double now) const;
   [[nodiscard]] StopCause stop_cause(double now, const Localiser* localiser) const;
+  [[nodiscard]] std::optional<Hold> hold(const Localiser* localiser) const;
   void let_go(double now);
   void plan(double now, const Localiser* localiser);
   void doubt_peers(const Observation& observation, const Pose2& pose_world);

@@ -39,7 +39,10 @@ PoseVerdict RobotHost::add_pose(const PoseMeasurement& pose, double now) {
 }
 
 ObservationVerdict RobotHost::add_observation(const SensedWorld& sensed, double now) {
-  return planner_.add_observation(sensed, tell_time(now), localiser_of_plan());
+  now = tell_time(now);
+  const Observation& observation = sensed.observation;
+  if (observation.scan) tracker_.add_scan(observation.time, *observation.scan, Pose2{}, now);
+  return planner_.add_observation(sensed, now, localiser_of_plan());
 }
 
 MessageVerdict RobotHost::add_message(const HeardMessage& message, double now) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/scan_check.hpp"
+
 namespace spf::host {
 namespace {
 
@@ -25,13 +27,21 @@ double PlannerProcess::tell_time(double now) {
   return clock_.now();
 }
 
-bool PlannerProcess::add_command(double time, const Eigen::Vector3d& wheel_speeds, double now) {
+bool PlannerProcess::add_command(double time, const Eigen::Vector3d& wheel_speeds, double now,
+                                 GuardAction guard) {
   now = tell_time(now);
   const bool usable = std::abs(now - time) <= kLongestDelay && wheel_speeds.allFinite() &&
                       wheel_speeds.lpNorm<Eigen::Infinity>() <= largest_wheel_speed_;
   // A stamp ahead of this process's clock must not carry the estimate there.
-  if (usable) localiser_.applied(std::min(time, now), wheel_speeds);
-  return usable;
+  if (!usable) return false;
+  localiser_.applied(std::min(time, now), wheel_speeds);
+  localiser_.note_guard(guard);
+  return true;
+}
+
+bool TrackerProcess::add_scan(double time, const RangeScan& scan, const Pose2& sensor_in_body, double now) {
+  now = tell_time(now);
+  return !blind(scan) && tracker_.add_scan(time, scan, sensor_in_body, now);
 }
 
 double TrackerProcess::tell_time(double now) {

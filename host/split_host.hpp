@@ -1,6 +1,7 @@
 // A robot whose planner and controller are processes of their own: each judges the poses and keeps the time
 // for itself. What passes between them is the planner's trajectory one way, and what was applied to the
-// wheels the other way. Each serves one thread. Frame: world (the fleet's); times are the host's [s].
+// wheels the other way, and whether the guard held them back. Each serves one thread. Frame: world (the
+// fleet's); times are the host's [s].
 #pragma once
 
 #include <algorithm>
@@ -30,7 +31,8 @@ class PlannerProcess {
   }
   /// Rim speeds [m/s] that the motors were told by the controller's process, at a time. False when they are
   /// refused: not of the present, or none that these motors could run at.
-  bool add_command(double time, const Eigen::Vector3d& wheel_speeds, double now);
+  bool add_command(double time, const Eigen::Vector3d& wheel_speeds, double now,
+                   GuardAction guard = GuardAction::none);
   const PlannerOutput& step(double now) { return planner_.step(tell_time(now), &localiser_); }
 
   [[nodiscard]] PlannerHost& planner() { return planner_; }
@@ -61,6 +63,9 @@ class TrackerProcess {
   PlanVerdict add_plan(const TrajectoryMessage& message, double now) {
     return tracker_.add_plan(message, tell_time(now));
   }
+  /// For the guard: a scan from its sensor's place in the body. False when it is refused: not of the present,
+  /// malformed, or half blind.
+  bool add_scan(double time, const RangeScan& scan, const Pose2& sensor_in_body, double now);
   /// As RobotHost::applied.
   void applied(double time, const Eigen::Vector3d& wheel_speeds) {
     localiser_.applied(std::min(time, clock_.now()), wheel_speeds);

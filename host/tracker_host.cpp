@@ -38,8 +38,10 @@ TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostP
       clock_error_{validated(host).clock_error},
       kinematics_{robot_},
       controller_{agent.tracker, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
-      watchdog_{host, agent.team.stale_time} {
+      watchdog_{host, agent.team.stale_time},
+      relies_on_scan_{host.relies_on_scan} {
   refuse_contradictions(contradictions(agent, host));
+  if (host.guard.enabled) guard_.emplace(host.guard, agent, host.clock_error);
 }
 
 void TrackerHost::note_pose(PoseVerdict verdict) {
@@ -81,6 +83,11 @@ void TrackerHost::meet_clock_jump() {
   has_plan_ = false;
   after_jump_ = true;
   braking_.reset();
+  if (guard_) guard_->forget();
+}
+
+bool TrackerHost::add_scan(double time, const RangeScan& scan, const Pose2& sensor_in_body, double now) {
+  return guard_ && guard_->add_scan(time, scan, sensor_in_body, now);
 }
 
 StopCause TrackerHost::stop_cause(double now, const Localiser& localiser) const {
@@ -89,6 +96,7 @@ StopCause TrackerHost::stop_cause(double now, const Localiser& localiser) const 
   facts.paused = switches_.paused;
   facts.clock_jumped = after_jump_ && (!localiser.has_pose() || !has_plan_);
   facts.pose_age = localiser.pose_age(now);
+  if (guard_ && relies_on_scan_) facts.scan_age = guard_->scan_age(now);
   facts.plan_age = plan_age(now);
   if (has_plan_)
     facts.plan_error = (command_.estimate.pose_world.position_world - plan_.trajectory.position(now)).norm();
@@ -107,8 +115,22 @@ const TrackerCommand& TrackerHost::step(double now, Localiser& localiser) {
   } else {
     brake(now, state);
   }
+  heed_guard(now, state);
   localiser.applied(now, command_.wheel_speeds);
+  localiser.note_guard(command_.guard.action);
   return command_;
+}
+
+/// Below everything that was decided above.
+void TrackerHost::heed_guard(double now, const MotionState& state) {
+  if (!guard_) return;
+  guard_->moves(now, kinematics_.twist_body(state.wheel_speeds));
+  command_.guard = guard_->judge(now, command_.twist_body);
+  if (command_.guard.action == GuardAction::none) return;
+  command_.twist_body = guard_->allowed(command_.twist_body);
+  command_.wheel_speeds = kinematics_.wheel_speeds(command_.twist_body.head<2>(), command_.twist_body.z());
+  const bool stops = command_.guard.action == GuardAction::stops;
+  if (stops && command_.stop == StopCause::none) command_.stop = StopCause::in_the_way;
 }
 
 void TrackerHost::follow(double now, const MotionState& state) {

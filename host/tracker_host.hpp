@@ -1,7 +1,8 @@
 // The control half of a robot: the planner's trajectory in, wheel speeds out, at the control rate and
 // whatever the planner does. When what it relies on is missing, it brakes at the largest planned acceleration
 // along a braking trajectory of its own, and stands until all is well again. Where the robot is it is told by
-// a Localiser, to which it tells what it commands. One thread. Frame: world (the fleet's); times are the
+// a Localiser, to which it tells what it commands. Whatever it follows, the ScanGuard has the last word. One
+// thread. Frame: world (the fleet's); times are the
 // host's [s] and have passed a StepClock.
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <optional>
 
 #include "host/localiser.hpp"
+#include "host/scan_guard.hpp"
 #include "host/watchdog.hpp"
 #include "spf/team/agent_parameters.hpp"
 #include "spf/tracking/trajectory_controller.hpp"
@@ -30,6 +32,7 @@ struct TrackerCommand {
   bool braking = false;                 ///< still moving, on the way to standstill
   Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] rims, within the limits
   Eigen::Vector3d twist_body = Eigen::Vector3d::Zero();    ///< [m/s, m/s, rad/s] that they mean
+  GuardVerdict guard;                                      ///< on what was to be commanded
   StateEstimate estimate;
   Eigen::Vector3d reference_pose = Eigen::Vector3d::Zero();  ///< [m, m, rad]
 };
@@ -41,6 +44,8 @@ class TrackerHost {
 
   PlanVerdict add_plan(const TrajectoryMessage& message, double now);
   void set_switches(const Switches& switches) { switches_ = switches; }
+  /// A scan, for the guard alone. False when it is refused (ScanGuard::add_scan), or there is no guard.
+  bool add_scan(double time, const RangeScan& scan, const Pose2& sensor_in_body, double now);
   /// The host could not even read a plan.
   void count_refused_plan() { ++plans_refused_; }
   /// What the Localiser said of a pose.
@@ -56,12 +61,15 @@ class TrackerHost {
   [[nodiscard]] double plan_age(double now) const;  ///< [s] infinite without one
   [[nodiscard]] std::uint32_t plans_refused() const { return plans_refused_; }
   [[nodiscard]] double max_wheel_speed() const { return kinematics_.max_wheel_speed(); }  ///< [m/s]
+  /// Null when it is switched off.
+  [[nodiscard]] const ScanGuard* guard() const { return guard_ ? &*guard_ : nullptr; }
 
  private:
   [[nodiscard]] StopCause stop_cause(double now, const Localiser& localiser) const;
   [[nodiscard]] PlanVerdict judge(const TrajectoryMessage& message, double now) const;
   void follow(double now, const MotionState& state);
   void brake(double now, const MotionState& state);
+  void heed_guard(double now, const MotionState& state);
 
   int robot_id_;
   RobotParameters robot_;
@@ -69,6 +77,8 @@ class TrackerHost {
   OmniKinematics kinematics_;
   TrajectoryController controller_;
   Watchdog watchdog_;
+  bool relies_on_scan_;
+  std::optional<ScanGuard> guard_;
   TrajectoryMessage plan_;
   bool has_plan_ = false;
   bool after_jump_ = false;  // of the clock, and nothing new since

@@ -80,14 +80,18 @@ class CompositionTest : public ::testing::Test {
       planner.add_pose(tick.input.pose, tick.time);
       tracker.add_pose(tick.input.pose, tick.time);
       for (const HeardMessage& message : tick.input.messages) planner.add_message(message, tick.time);
-      for (const host::SensedWorld& seen : tick.input.seen) planner.add_observation(seen, tick.time);
+      for (const host::SensedWorld& seen : tick.input.seen) {
+        if (seen.observation.scan)
+          tracker.add_scan(seen.observation.time, *seen.observation.scan, Pose2{}, tick.time);
+        planner.add_observation(seen, tick.time);
+      }
       const host::PlannerOutput& output = planner.step(tick.time);
       if (output.planned) tracker.add_plan(output.plan, tick.time);
       if (!tick.action.controlled) continue;  // its timer
       const Eigen::Vector3d command = tracker.step(tick.time).wheel_speeds;
       commands.push_back(command);
       tracker.applied(tick.time, base(command));
-      planner.add_command(tick.time, tell(command), tick.time);
+      planner.add_command(tick.time, tell(command), tick.time, tracker.tracker().command().guard.action);
     }
     return commands;
   }
@@ -124,6 +128,14 @@ TEST_F(CompositionTest, WithItsGuardsUpItCommandsTheSameEitherWay) {
   host.trusts_peers = false;
   host.relies_on_scan = true;
   const Commands one = in_one_process(obeys);
+  EXPECT_EQ(split(obeys, obeys), one);
+}
+
+TEST_F(CompositionTest, UnderItsGuardItCommandsTheSameEitherWay) {
+  host.guard.enabled = true;
+  host.guard.margin = 0.5;  // so that it has something to do
+  const Commands one = in_one_process(obeys);
+  EXPECT_NE(one, simulated());
   EXPECT_EQ(split(obeys, obeys), one);
 }
 

@@ -131,6 +131,7 @@ host::HostParameters host_parameters_for(const Scenario& scenario, const AgentPa
   host.relies_on_scan = scans_alone && simulation.trial.tracking == TrackingMode::full;
   host.relies_on_obstacles = !scans_alone && simulation.trial.tracking == TrackingMode::full;
   host.trusts_peers = true;
+  host.guard.enabled = simulation.sensing.guard && simulation.trial.tracking == TrackingMode::full;
   return host;
 }
 

@@ -277,6 +277,12 @@ void Simulation::Implementation::tell_frame() {
 TrialResult Simulation::Implementation::result() {
   TrialResult result = world.result();
   meter.finish(result);
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const host::ScanGuard* guard = robots[i].tracker().guard();
+    if (guard == nullptr) continue;
+    result.robots[i].guard_stops = static_cast<int>(guard->counts().stops);
+    result.robots[i].guard_held = guard->counts().held_time;
+  }
   result.plan_ms = std::move(plan_ms);
   result.control_us = std::move(control_us);
   result.messages = radio.messages_sent();

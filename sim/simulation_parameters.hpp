@@ -108,6 +108,7 @@ struct SensingParameters {
   double field_of_view = 360.0;       ///< [deg] of the range sensor, as much to the left as to the right
   double range_sigma = 0.0;           ///< [m] noise of one beam
   double rate = 10.0;                 ///< [Hz] of detections and scans
+  bool guard = false;                 ///< scans guard the robots' way, where there are any
   double map_resolution = 0.1;        ///< [m] of the robots' grids (coarser where they had too many nodes)
   double map_max_distance = 2.0;      ///< [m] beyond which the grids need not know distances
 
@@ -129,6 +130,7 @@ struct SensingParameters {
           "angle that a sweep covers, its middle ahead");
     visit("range_sigma", self.range_sigma, "m", Range{0.0, 10.0}, "noise of one beam");
     visit("rate", self.rate, "Hz", Range{0.1, 200.0}, "rate of detections and scans");
+    visit("guard", self.guard, "raw scans, where there are any, slow and stop robots before what is ahead");
     visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
           "node distance of the robots' grids");
     visit("map_max_distance", self.map_max_distance, kMetresBySize, Range{0.01, 100.0},

@@ -51,6 +51,8 @@ struct RobotResult {
   std::int64_t inner_iterations = 0;
   std::int64_t evaluations = 0;
   std::int64_t primitives = 0;
+  int guard_stops = 0;                      ///< by the guard, in the whole trial
+  double guard_held = 0.0;                  ///< [s] in which the guard slowed or stopped it, likewise
   double static_clearance = 0.0;            ///< [m] least, minus the radius; at most 3 m
   std::array<double, kStopCauses> stood{};  ///< [s] by StopCause; `arrived` and `none` stay 0
 };

@@ -38,6 +38,8 @@ const char* to_string(StopCause cause) {
       return "stale plan";
     case StopCause::far_from_plan:
       return "far from its plan";
+    case StopCause::in_the_way:
+      return "obstacle in the way";
     case StopCause::control_failed:
       return "no control";
   }

@@ -30,6 +30,7 @@ enum class StopCause {
   no_plan,       ///< the controller has none yet
   stale_plan,    ///< no word of the planner for too long
   far_from_plan,
+  in_the_way,      ///< the guard holds it before what its scanner shows
   control_failed,  ///< the controller had no answer
 };
 [[nodiscard]] const char* to_string(StopCause cause);
@@ -39,6 +40,12 @@ inline constexpr std::size_t kStopCauses = static_cast<std::size_t>(StopCause::c
 struct StandCause {
   StopCause reason = StopCause::none;
   int culprit = -1;  ///< id of the obstacle or peer, -1 = none
+};
+
+/// Something below the planner, as a guard, keeps the robot from doing as planned.
+struct Hold {
+  Eigen::Vector3d twist_world = Eigen::Vector3d::Zero();  ///< [m/s, m/s, rad/s] that it is told instead
+  bool stands = false;                                    ///< it may not go on at all
 };
 
 struct AgentStatus {

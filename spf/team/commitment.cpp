@@ -16,7 +16,8 @@ Commitment::Commitment(const AgentParameters& parameters, const Pose2& start, do
       held_heading_{start.heading},
       trajectory_{Trajectory::standing(start.position_world, time, 1.0, HeadingProfile{start.heading})} {}
 
-void Commitment::begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request) {
+void Commitment::begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request,
+                            const std::optional<Hold>& hold) {
   request.head = trajectory_.state(request.time);
   request.heading = trajectory_.heading().state(request.time);
   request.committed = &trajectory_;
@@ -24,10 +25,13 @@ void Commitment::begin_plan(const std::optional<StateEstimate>& estimate, PlanRe
   if (!estimate || !estimate->valid) return;
   const Pose2& pose = estimate->pose_world;
   const Eigen::Vector2d error = pose.position_world - request.head.position_world;
-  const double limit = std::max(reanchor_distance_, 4.0 * std::sqrt(estimate->position_variance));
-  if (error.norm() > limit) {
-    request.head = {pose.position_world, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
-    request.heading = {pose.heading, 0.0};
+  const double noise = 4.0 * std::sqrt(estimate->position_variance);
+  // One that is only slowed down goes on along its plan while it is near it.
+  const bool stands = hold && hold->stands;
+  if (error.norm() > (stands ? noise : std::max(reanchor_distance_, noise))) {
+    const Eigen::Vector3d twist = hold ? hold->twist_world : Eigen::Vector3d{Eigen::Vector3d::Zero()};
+    request.head = {pose.position_world, twist.head<2>(), Eigen::Vector2d::Zero()};
+    request.heading = {pose.heading, twist.z()};
     request.committed = nullptr;
     tracking_variance_ = 0.0;
     return;

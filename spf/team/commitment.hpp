@@ -8,6 +8,7 @@
 #include "spf/planning/planner.hpp"
 #include "spf/robot/omni_kinematics.hpp"
 #include "spf/team/agent_parameters.hpp"
+#include "spf/team/agent_status.hpp"
 
 namespace spf {
 
@@ -18,8 +19,9 @@ class Commitment {
 
   /// Fills in where a plan made at request.time begins. It goes on from the trajectory, which keeps the
   /// motion smooth; a robot that has been carried too far from it (`estimate`, when given) starts anew where
-  /// it is.
-  void begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request);
+  /// it is, as it is told to move when it is held, and so does one that may not go on at all.
+  void begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request,
+                  const std::optional<Hold>& hold = std::nullopt);
   /// Does what the result's action says, with the heading that the heading mode wants.
   void follow(const PlanRequest& request, const PlanResult& result);
   /// Brakes from the trajectory, unless it is a braking one already. True when a new one began.

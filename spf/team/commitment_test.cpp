@@ -56,6 +56,34 @@ TEST_F(CommitmentTest, ThePlanGoesOnFromThePlan) {
   EXPECT_LT(commitment.tracking_variance(), 0.01);
 }
 
+TEST_F(CommitmentTest, ARobotThatIsSlowedDownKeepsItsPlanUntilItIsFarBehind) {
+  set_out();
+  PlanRequest request = request_at(2.0);
+  const Hold hold{{0.2, 0.1, -0.3}, false};
+  commitment.begin_plan(estimate_at({0.75, 0.0}), request, hold);
+  EXPECT_NE(request.committed, nullptr);
+  commitment.begin_plan(estimate_at({0.75 - TeamParameters{}.reanchor_distance, 0.0}), request, hold);
+  EXPECT_EQ(request.committed, nullptr);
+  EXPECT_EQ(request.head.velocity_world, (Eigen::Vector2d{0.2, 0.1}));
+}
+
+TEST_F(CommitmentTest, ARobotThatMayNotGoOnPlansFromWhereItIsAsItIsToldToMove) {
+  set_out();
+  PlanRequest request = request_at(2.0);
+  const Hold hold{{0.2, 0.1, -0.3}, true};
+  commitment.begin_plan(estimate_at({0.75, 0.0}), request, hold);  // 0.05 m behind it
+  EXPECT_EQ(request.committed, nullptr);
+  EXPECT_EQ(request.head.position_world, (Eigen::Vector2d{0.75, 0.0}));
+  EXPECT_EQ(request.head.velocity_world, (Eigen::Vector2d{0.2, 0.1}));
+  EXPECT_EQ(request.heading.heading, 0.4);
+  EXPECT_EQ(request.heading.yaw_rate, -0.3);
+  // What may be noise is no difference.
+  StateEstimate unsure = estimate_at({0.75, 0.0});
+  unsure.position_variance = 0.02 * 0.02;
+  commitment.begin_plan(unsure, request, hold);
+  EXPECT_NE(request.committed, nullptr);
+}
+
 TEST_F(CommitmentTest, ARobotThatWasCarriedAwayStartsAnewWhereItIs) {
   set_out();
   const double limit = TeamParameters{}.reanchor_distance;

@@ -26,11 +26,11 @@ struct RobotAgent::Implementation {
   Implementation(int robot_id, const AgentParameters& agent_parameters, const OccupancyMap& map,
                  const Pose2& start, double time);
 
-  std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state,
-                                        StopCause stop);
+  std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state, StopCause stop,
+                                        const std::optional<Hold>& hold);
   void brake(double now);
-  void make_plan(double now, const std::optional<StateEstimate>& state);
-  [[nodiscard]] StandCause standing_cause(double now) const;
+  void make_plan(double now, const std::optional<StateEstimate>& state, const std::optional<Hold>& hold);
+  [[nodiscard]] StandCause standing_cause(double now, const std::optional<Hold>& hold) const;
   [[nodiscard]] double position_sigma(const std::optional<StateEstimate>& state) const;
 
   int id;
@@ -64,18 +64,20 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
 
 std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
                                                                   const std::optional<StateEstimate>& state,
-                                                                  StopCause stop) {
+                                                                  StopCause stop,
+                                                                  const std::optional<Hold>& hold) {
   next_plan_time = next_due(next_plan_time, parameters.team.plan_period, now);
   // 1. What is believed now.
   beliefs.refresh(now);
   // 2. A plan, unless there is a cause to stop that no plan can mend.
   if (stop == StopCause::none && !goal) stop = StopCause::no_goal;
   if (stop == StopCause::none)
-    make_plan(now, state);
+    make_plan(now, state, hold);
   else
     brake(now);
   // 3. Say how it stands, to the host and to the peers.
-  announcement.update(now, {commitment.trajectory(), commitment.braking(), goal, stop, standing_cause(now)});
+  announcement.update(now,
+                      {commitment.trajectory(), commitment.braking(), goal, stop, standing_cause(now, hold)});
   return announcement.message(now, next_plan_time, commitment.trajectory(), position_sigma(state));
 }
 
@@ -86,7 +88,8 @@ void RobotAgent::Implementation::brake(double now) {
   result.trajectory = commitment.trajectory();
 }
 
-void RobotAgent::Implementation::make_plan(double now, const std::optional<StateEstimate>& state) {
+void RobotAgent::Implementation::make_plan(double now, const std::optional<StateEstimate>& state,
+                                           const std::optional<Hold>& hold) {
   guide.refresh(now, beliefs.map(), *goal, commitment.trajectory().position(now));
   PlanRequest request;
   request.time = now;
@@ -96,14 +99,15 @@ void RobotAgent::Implementation::make_plan(double now, const std::optional<State
   request.guide = &guide.cost_to_go();
   request.goal_cut_off = guide.cut_off();
   request.keep_candidates = keep_candidates;
-  commitment.begin_plan(state, request);
+  commitment.begin_plan(state, request, hold);
   request.position_sigma = position_sigma(state);
   planner->plan(request, result);
   commitment.follow(request, result);
 }
 
 /// Why the robot stands where no cause forces it to.
-StandCause RobotAgent::Implementation::standing_cause(double now) const {
+StandCause RobotAgent::Implementation::standing_cause(double now, const std::optional<Hold>& hold) const {
+  if (hold && hold->stands) return {StopCause::in_the_way};
   if (guide.goal_out_of_reach(commitment.trajectory().position(now))) return {StopCause::no_path};
   if (result.blocking_track >= 0) return {StopCause::obstacle_ahead, result.blocking_track};
   if (result.blocking_peer >= 0) return {StopCause::peer_ahead, result.blocking_peer};
@@ -149,8 +153,8 @@ bool RobotAgent::plan_due(double now) const {
   return is_due(implementation_->next_plan_time, now);
 }
 std::optional<TrajectoryMessage> RobotAgent::plan(double now, const std::optional<StateEstimate>& state,
-                                                  StopCause stop) {
-  return implementation_->plan(now, state, stop);
+                                                  StopCause stop, const std::optional<Hold>& hold) {
+  return implementation_->plan(now, state, stop, hold);
 }
 
 int RobotAgent::robot_id() const {

@@ -74,7 +74,9 @@ void PlannerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
 
 void PlannerNode::on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels) {
   const Converted<Eigen::Vector3d> speeds = from_message(*wheels);
-  const bool usable = speeds && host_.add_command(clock_.seconds(wheels->header.stamp), *speeds, now());
+  const bool usable = speeds && wheels->guard <= spf_empc_msgs::WheelSpeeds::STOPS &&
+                      host_.add_command(clock_.seconds(wheels->header.stamp), *speeds, now(),
+                                        static_cast<spf::host::GuardAction>(wheels->guard));
   if (usable) return;
   host_.planner().count_refused_input();
   refuse("wheel_speeds", speeds ? "not of the present, or out of range" : speeds.refusal);

@@ -25,6 +25,12 @@ std::string mode_of(const spf::host::TrackerCommand& command) {
   return command.stop == spf::StopCause::none ? "tracking" : to_string(command.stop);
 }
 
+std::string guard_text(const spf::host::ScanGuard* guard, double now) {
+  if (guard == nullptr) return "off";
+  if (!guard->sees(now)) return "no scan";
+  return to_string(guard->verdict().action);
+}
+
 }  // namespace
 
 TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const ros::Time& start)
@@ -44,6 +50,8 @@ TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const 
   status_ = node_.advertise<spf_empc_msgs::TrackerStatus>("tracker_status", 20);
   subscribers_ = {node_.subscribe("odom", 20, &TrackerNode::on_pose, this, kNoDelay),
                   node_.subscribe("trajectory", 5, &TrackerNode::on_plan, this, kNoDelay)};
+  if (host_.tracker().guard() != nullptr)
+    subscribers_.push_back(node_.subscribe("scan", 2, &TrackerNode::on_scan, this, kNoDelay));
   timer_ = node_.createTimer(ros::Duration{config_.agent.tracker.control_period},
                              [this](const ros::TimerEvent&) { step(); });
 }
@@ -80,6 +88,16 @@ void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory)
   observed_ = received->observed;
 }
 
+/// As it comes from the driver, for the guard: by no other node.
+void TrackerNode::on_scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
+  const Converted<spf::RangeScan> ranges = from_message(*scan);
+  if (!ranges) return refuse("scan", ranges.refusal);
+  const Converted<spf::Pose2> sensor = frames_.place(scan->header.frame_id, base_frame_, ros::Time{});
+  if (!sensor) return refuse("scan", sensor.refusal);
+  if (!host_.add_scan(clock_.seconds(scan->header.stamp), *ranges, *sensor, now()))
+    refuse("scan", "malformed, half blind, or not of the present");
+}
+
 void TrackerNode::step() {
   const ros::WallTime begun = ros::WallTime::now();
   const ros::Time time = ros::Time::now();  // from which on the command counts
@@ -100,6 +118,7 @@ void TrackerNode::publish_command(const ros::Time& now, const spf::host::Tracker
   spf_empc_msgs::WheelSpeeds wheels = to_message(command.wheel_speeds, host_.tracker().max_wheel_speed());
   wheels.header.stamp = now;
   wheels.header.frame_id = base_frame_;
+  wheels.guard = static_cast<std::uint8_t>(command.guard.action);
   wheel_speeds_.publish(wheels);
 }
 
@@ -137,6 +156,10 @@ void TrackerNode::publish_status(const ros::Time& now, const spf::host::TrackerC
   message.latency_ms = follows ? 1e3 * (clock_.seconds(now) - *observed_) : -1.0;
   message.plans_refused = host_.tracker().plans_refused();
   message.poses_refused = host_.localiser().poses_refused();
+  message.guard_scale = command.guard.scale;
+  message.guard_way = command.guard.way;
+  if (const spf::host::ScanGuard* guard = host_.tracker().guard())
+    message.guard_stops = guard->counts().stops;
   status_.publish(message);
 }
 
@@ -146,14 +169,18 @@ void TrackerNode::report(const ros::Time& now, const spf::host::TrackerCommand& 
   using spf::StopCause;
   Health health = Health::missing;
   if (command.stop == StopCause::none) health = Health::ok;
-  if (command.stop == StopCause::paused || command.stop == StopCause::far_from_plan)
+  if (command.stop == StopCause::paused || command.stop == StopCause::far_from_plan ||
+      command.stop == StopCause::in_the_way)
     health = Health::standing;
   const double seconds = clock_.seconds(now);
   Diagnostics::Values values{{"pose age", age_text(host_.localiser().pose_age(seconds))},
                              {"plan age", age_text(host_.tracker().plan_age(seconds))},
                              {"poses refused", std::to_string(host_.localiser().poses_refused())},
                              {"plans refused", std::to_string(host_.tracker().plans_refused())},
-                             {"clock jumps", std::to_string(host_.clock_jumps())}};
+                             {"clock jumps", std::to_string(host_.clock_jumps())},
+                             {"guard", guard_text(host_.tracker().guard(), seconds)}};
+  if (const spf::host::ScanGuard* guard = host_.tracker().guard())
+    values.emplace_back("guard stops", std::to_string(guard->counts().stops));
   if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
   diagnostics_.report(now, health, mode, values);
 }

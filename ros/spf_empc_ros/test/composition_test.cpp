@@ -110,8 +110,12 @@ class CompositionTest : public ::testing::Test {
       tracker.add_pose(pose, now);
       for (const spf::HeardMessage& message : tick.input.messages)
         planner.add_message(over_wire(message, std::nullopt), now);
-      for (const spf::host::SensedWorld& seen : tick.input.seen)
-        planner.add_observation(*from_message(to_message(seen, kClock, kFrame), kClock, kFrame), now);
+      for (const spf::host::SensedWorld& seen : tick.input.seen) {
+        const spf::host::SensedWorld told = *from_message(to_message(seen, kClock, kFrame), kClock, kFrame);
+        if (told.observation.scan)
+          tracker.add_scan(told.observation.time, *told.observation.scan, spf::Pose2{}, now);
+        planner.add_observation(told, now);
+      }
       const spf::host::PlannerOutput& output = planner.step(now);
       if (output.planned) tracker.add_plan(over_wire(output.plan, output.observed), now);
       if (!tick.action.controlled) continue;  // its timer
@@ -119,14 +123,15 @@ class CompositionTest : public ::testing::Test {
       spf_empc_msgs::WheelSpeeds wheels =
           to_message(share_that_is_told * commands.back(), tracker.tracker().max_wheel_speed());
       wheels.header.stamp = kClock.time(now);
-      planner.add_command(kClock.seconds(wheels.header.stamp), *from_message(wheels), now);
+      planner.add_command(kClock.seconds(wheels.header.stamp), *from_message(wheels), now,
+                          tracker.tracker().command().guard.action);
     }
     return commands;
   }
 
   const spf::sim::Scenario scenario = sensed_swap();
   const spf::AgentParameters agent = spf::sim::agent_parameters_for(scenario, spf::AgentParameters{});
-  const spf::host::HostParameters host = spf::sim::host_parameters_for(scenario, agent);
+  spf::host::HostParameters host = spf::sim::host_parameters_for(scenario, agent);
   const spf::OccupancyMap map = spf::sim::robot_map(scenario);
   const spf::sim::RobotTask task = scenario.robots[kRobot];
   std::vector<LoggedTick> ticks;
@@ -147,6 +152,12 @@ TEST_F(CompositionTest, ThroughMessagesARobotCommandsTheSame) {
   EXPECT_GT(fastest, 0.5);
   EXPECT_EQ(through_ros(1.0), commands);
   EXPECT_NE(through_ros(0.7), commands);  // a planner that is told something else plans something else
+}
+
+TEST_F(CompositionTest, UnderItsGuardToo) {
+  host.guard.enabled = true;
+  host.guard.margin = 0.5;  // so that it has something to do
+  EXPECT_EQ(through_ros(1.0), without_ros());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// host::TrackerProcess on ROS: odometry and the planner's trajectory in, commands out, by a timer of its own.
-// Topics: docs/ros.md.
+// host::TrackerProcess on ROS: odometry, scans and the planner's trajectory in, commands out, by a timer of
+// its own. Topics: docs/ros.md.
 #pragma once
 
 #include <nav_msgs/Odometry.h>
@@ -7,6 +7,7 @@
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
 #include <ros/timer.h>
+#include <sensor_msgs/LaserScan.h>
 #include <spf_empc_msgs/Trajectory.h>
 
 #include <optional>
@@ -35,6 +36,7 @@ class TrackerNode {
  private:
   void on_pose(const nav_msgs::Odometry::ConstPtr& odometry);
   void on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory);
+  void on_scan(const sensor_msgs::LaserScan::ConstPtr& scan);
   void step();
   void publish_command(const ros::Time& now, const spf::host::TrackerCommand& command);
   void publish_estimate(const ros::Time& now, const spf::host::TrackerCommand& command);
