@@ -1,7 +1,11 @@
 #include "host/localiser.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+
+#include "spf/math/angles.hpp"
 
 namespace spf::host {
 Localiser::Localiser(const AgentParameters& agent, const HostParameters& host)
@@ -19,6 +23,10 @@ PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
   if (verdict == PoseVerdict::relocalised) {
     const Eigen::Vector3d command = estimator_.state().command;
     estimator_.reset();
+    const Pose2 thought = estimator_.estimate(pose.time).pose_world;
+    correction_.heading = angle_difference(pose.pose_world.heading, thought.heading);
+    correction_.position_world =
+        pose.pose_world.position_world - Eigen::Rotation2Dd{correction_.heading} * thought.position_world;
     estimator_.apply(pose.time, command);
   }
   advance_to(pose.time);

@@ -23,6 +23,8 @@ class Localiser {
 
   /// Enters a pose that is believed. After a jump that persisted nothing older counts.
   PoseVerdict add_pose(const PoseMeasurement& pose, double now);
+  /// What the last relocalisation did: a place that was taken for p is turned by this and then shifted by it.
+  [[nodiscard]] const Pose2& correction() const { return correction_; }
   /// Rim speeds [m/s] that the motors are told from a time on, held until the next: those that were really
   /// applied. Those that are not finite count as none. What is older than the last is ignored; the caller
   /// sees to it that nothing lies ahead of the present, where it would carry the estimate.
@@ -50,6 +52,7 @@ class Localiser {
  private:
   PoseGate gate_;
   MotionEstimator estimator_;
+  Pose2 correction_;
   double command_silence_;        // [s]
   double command_time_ = kNever;  // [s] when the last command was applied
   bool standing_ = true;          // no command is in force

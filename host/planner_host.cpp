@@ -36,13 +36,16 @@ PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostP
 
 void PlannerHost::set_map(OccupancyMap map) {
   map_ = std::move(map);
-  forget_agent();  // it knows another one
 }
+  if (agent_)
+    agent_->set_map(map);
+  else if (map_)
+    map.take_over_sensed(*map_);
 
 // ---- what comes in ----------------------------------------------------------------------------------------
 
-void PlannerHost::note_pose(const PoseMeasurement& pose, PoseVerdict verdict) {
-  if (verdict == PoseVerdict::relocalised) forget_agent();
+void PlannerHost::note_pose(const PoseMeasurement& pose, PoseVerdict verdict, const Localiser& localiser) {
+  if (verdict == PoseVerdict::relocalised) forget_agent(localiser.correction());
   if (believed(verdict) && !agent_) standing_.add(pose);
 }
 
@@ -145,13 +148,17 @@ PlannerCounts PlannerHost::counts() const {
 
 // ---- starting and starting afresh -------------------------------------------------------------------------
 
-void PlannerHost::forget_agent() {
+void PlannerHost::forget_agent(const Pose2& correction) {
   counts_ = counts();
   agent_.reset();
   standing_.forget();
 }
 
 void PlannerHost::meet_clock_jump() {
+  if (map_) {
+    const OccupancyMap before = agent_ ? agent_->map() : *map_;
+    map_->take_over_sensed(before, correction);
+  }
   forget_agent();
   witness_.forget();
   last_scan_time_ = kNever;
@@ -169,7 +176,8 @@ void PlannerHost::start_when_ready(double now, const Localiser& localiser) {
 }
 
 void PlannerHost::start(const OccupancyMap& map, const Pose2& pose_world, double now) {
-  set_map(map);
+  forget_agent();
+  map_ = map;
   vouched_time_ = now;
   make_agent(pose_world, now);
 }

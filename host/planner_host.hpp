@@ -68,15 +68,17 @@ class PlannerHost {
   PlannerHost(int robot_id, const AgentParameters& agent, const HostParameters& host,
               std::uint32_t first_sequence = 0);
 
-  /// The static map. The robot waits for one, unless it is told that there is none.
+  /// The static map. The robot waits for one, unless it is told that there is none. Another one than before
+  /// (a map that is still being made) is planned with from then on; what was sensed is kept.
   void set_map(OccupancyMap map);
   void go_without_map() { needs_map_ = false; }
   /// Starts at once, without waiting to see the robot stand: the caller knows that it stands at this pose,
   /// with nothing unseen around it.
   void start(const OccupancyMap& map, const Pose2& pose_world, double now);
 
-  /// What the Localiser said of a pose: until the agent has started, it is to be seen to stand.
-  void note_pose(const PoseMeasurement& pose, PoseVerdict verdict);
+  /// What the Localiser said of a pose: until the agent has started, it is to be seen to stand. After a
+  /// relocalisation what was sensed lies where it would, had the robot been there before.
+  void note_pose(const PoseMeasurement& pose, PoseVerdict verdict, const Localiser& localiser);
   ObservationVerdict add_observation(const SensedWorld& sensed, double now, const Localiser* localiser);
   MessageVerdict add_message(const HeardMessage& message, double now);
   /// False when it is refused: not finite, or beyond all robots.
@@ -88,7 +90,7 @@ class PlannerHost {
   /// The host could not even read something.
   void count_malformed_message() { ++counts_.messages_malformed; }
   void count_refused_input() { ++counts_.inputs_refused; }
-  /// Everything that was known is forgotten, but for goal and map.
+  /// Everything that was known is forgotten, but for the goal, the map, and what was sensed of it.
   void meet_clock_jump();
   /// Likewise, of a robot that is where its plan says: it starts afresh `now` where it was at `then` [s].
   void restart_where_planned(double then, double now);
@@ -108,7 +110,7 @@ class PlannerHost {
   [[nodiscard]] const AgentParameters& parameters() const { return agent_parameters_; }
 
  private:
-  void forget_agent();
+  void forget_agent(const Pose2& correction = {});
   void make_agent(const Pose2& pose_world, double now);
   void start_when_ready(double now, const Localiser& localiser);
   [[nodiscard]] ObservationVerdict judge(const SensedWorld& sensed, double now) const;

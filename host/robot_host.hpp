@@ -19,7 +19,6 @@ namespace spf::host {
 enum class Motion {
   by_wheels,   ///< by the wheel speeds that it commands; poses are measured
   as_planned,  ///< exactly as it plans, by somebody else: it needs no poses, and its wheels are never asked.
-               ///< After a new map it is to be started again
 };
 
 /// After a step.

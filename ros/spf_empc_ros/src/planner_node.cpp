@@ -21,6 +21,12 @@ const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 
 /// Numbers messages so that a later process begins higher: hundredths of a second of ROS time.
 std::uint32_t first_sequence(const ros::Time& start) {
+bool same_cells(const nav_msgs::OccupancyGrid& one, const nav_msgs::OccupancyGrid& other) {
+  return one.header.frame_id == other.header.frame_id && one.info.resolution == other.info.resolution &&
+         one.info.width == other.info.width && one.info.height == other.info.height &&
+         one.info.origin == other.info.origin && one.data == other.data;
+}
+
   return start.sec * 100U + start.nsec / 10000000U;
 }
 
@@ -127,12 +133,14 @@ void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
 void PlannerNode::on_cancel(const std_msgs::Empty::ConstPtr&) {
   host_.planner().cancel();
 }
+  if (shown_grid_.given && same_cells(*shown_grid_.given, *map)) return;  // told again
 
 // ---- out
 // ----------------------------------------------------------------------------------------------------
 
 void PlannerNode::step() {
   const ros::WallTime begun = ros::WallTime::now();
+  shown_grid_.given = map;
   const ros::Time time = ros::Time::now();
   const double seconds = clock_.seconds(time);
   const spf::host::PlannerOutput& output = host_.step(seconds);

@@ -252,6 +252,11 @@ TEST(Conversions, WheelSpeedsGoThereAndBackAndMustBeThree) {
   EXPECT_EQ(from_message(message).refusal, "speeds has 2 entries, not 3");
 }
 
+  // The same, turned by a quarter in its frame.
+  grid.info.origin = to_message(spf::Pose2{{2.5, -5.0}, 0.5 * spf::kPi});
+  const auto turned = from_message(grid, "map", {}, {});
+  ASSERT_TRUE(turned) << turned.refusal;
+  EXPECT_NEAR(turned->distance({-0.05, 0.5}), 1.0, 0.05);
 TEST(Display, ShowsPathRobotFieldsAndTracks) {
   spf::OccupancyMap map{spf::GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
   spf::RobotAgent agent{0, spf::AgentParameters{}, map, spf::Pose2{}, 1.0};

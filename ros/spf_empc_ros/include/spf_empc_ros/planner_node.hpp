@@ -66,6 +66,7 @@ class PlannerNode {
     double next = 0.0;                      // [s] when it may be shown again
     std::optional<std::uint64_t> revision;  // of the map that was
   } shown_grid_;
+    nav_msgs::OccupancyGrid::ConstPtr given;
   std::string last_refusal_;
 };
 
