@@ -74,10 +74,10 @@ ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, doubl
   if (observation.scan) last_scan_time_ = std::max(last_scan_time_, observation.time);
   if (sensed.has_detections) last_detections_time_ = std::max(last_detections_time_, observation.time);
   if (!agent_) return verdict;
-  const StateEstimate then = localiser != nullptr ? localiser->estimate(observation.time) : StateEstimate{};
   std::optional<Pose2> from;
-  if (then.valid) from = then.pose_world;
-  if (localiser == nullptr) {
+  if (localiser != nullptr) {
+    from = localiser->pose(observation.time);
+  } else {
     const Trajectory& plan = agent_->committed();
     from = Pose2{plan.position(observation.time), plan.heading().state(observation.time).heading};
   }
@@ -208,7 +208,10 @@ StopCause PlannerHost::stop_cause(double now, const Localiser* localiser) const 
   WatchFacts facts;
   facts.emergency_stop = switches_.emergency_stop;
   facts.paused = switches_.paused;
-  if (localiser != nullptr) facts.pose_age = localiser->pose_age(now);
+  if (localiser != nullptr) {
+    facts.pose_age = localiser->pose_age(now);
+    facts.localisation_age = localiser->localisation_age(now);
+  }
   if (host_.relies_on_scan) facts.scan_age = now - std::max(last_scan_time_, vouched_time_);
   if (host_.relies_on_obstacles) facts.obstacles_age = now - std::max(last_detections_time_, vouched_time_);
   return watchdog_.watch(facts);

@@ -59,6 +59,7 @@ class RobotHost {
   [[nodiscard]] PlannerHost& planner() { return planner_; }
   [[nodiscard]] const PlannerHost& planner() const { return planner_; }
   [[nodiscard]] const TrackerHost& tracker() const { return tracker_; }
+  [[nodiscard]] Localiser& localiser() { return localiser_; }
   [[nodiscard]] const Localiser& localiser() const { return localiser_; }
   [[nodiscard]] std::uint32_t clock_jumps() const { return clock_.count(); }
   /// Requires that it has started (planner().agent() is null before, and while it starts afresh).

@@ -86,6 +86,7 @@ StopCause TrackerHost::stop_cause(double now, const Localiser& localiser) const 
   facts.paused = switches_.paused;
   facts.clock_jumped = after_jump_ && (!localiser.has_pose() || !has_plan_);
   facts.pose_age = localiser.pose_age(now);
+  facts.localisation_age = localiser.localisation_age(now);
   facts.plan_age = plan_age(now);
   if (has_plan_)
     facts.plan_error = (command_.estimate.pose_world.position_world - plan_.trajectory.position(now)).norm();
