@@ -17,6 +17,8 @@ const char* to_string(ObservationVerdict verdict) {
       return "accepted";
     case ObservationVerdict::malformed:
       return "malformed";
+    case ObservationVerdict::blind:
+      return "half blind";
     case ObservationVerdict::future:
       return "from the future";
     case ObservationVerdict::late:
@@ -31,16 +33,17 @@ PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostP
       agent_parameters_{validated(agent)},
       host_{validated(host)},
       watchdog_{host_, agent_parameters_.team.stale_time},
+      peer_watch_{robot_id, host_.peer_clock_error},
       standing_{host_, agent_parameters_.robot},
       sequence_{first_sequence} {}
 
 void PlannerHost::set_map(OccupancyMap map) {
-  map_ = std::move(map);
-}
   if (agent_)
     agent_->set_map(map);
   else if (map_)
     map.take_over_sensed(*map_);
+  map_ = std::move(map);
+}
 
 // ---- what comes in ----------------------------------------------------------------------------------------
 
@@ -88,11 +91,8 @@ ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, doubl
 
 /// Before the scan enters the map: whose discs are not to hide what it shows.
 void PlannerHost::doubt_peers(const Observation& observation, const Pose2& pose_world) {
-  witness_.see(*observation.scan, pose_world, observation.time, agent_->peers());
-  std::vector<int> doubted;
-  for (const Peer& peer : agent_->peers())
-    if (!witness_.trusts(peer.robot_id, observation.time)) doubted.push_back(peer.robot_id);
-  agent_->set_distrusted(std::move(doubted));
+  peer_watch_.see(*observation.scan, pose_world, observation.time, agent_->peers());
+  agent_->set_distrusted(peer_watch_.distrusted(agent_->peers(), observation.time));
 }
 
 bool PlannerHost::well_formed(const TrajectoryMessage& message) const {
@@ -102,16 +102,21 @@ bool PlannerHost::well_formed(const TrajectoryMessage& message) const {
 }
 
 MessageVerdict PlannerHost::add_message(const HeardMessage& message, double now) {
-  if (message->robot_id == robot_id_) return MessageVerdict::own;
-  if (!host_.trusts_peers) {
-    if (!well_formed(message)) {
-      ++counts_.messages_malformed;
-      return MessageVerdict::malformed;
-    }
+  if (host_.trusts_peers) {
+    if (message->robot_id == robot_id_) return MessageVerdict::own;
+    return agent_ ? agent_->hear(message, now) : MessageVerdict::accepted;
   }
+  if (!well_formed(message)) {
+    refuse_message(message->robot_id, PeerFault::malformed, "its messages are out of range", now);
+    return MessageVerdict::malformed;
+  }
+  const std::optional<HeardMessage> admitted = peer_watch_.admitted(message, now);
+  if (!admitted) return MessageVerdict::own;
   // The agent's table judges the rest: order, age, clock.
-  const MessageVerdict verdict = agent_ ? agent_->hear(message, now) : MessageVerdict::accepted;
-  if (verdict == MessageVerdict::accepted && !host_.trusts_peers) witness_.hear(message, now);
+  const MessageVerdict verdict = agent_ ? agent_->hear(*admitted, now) : MessageVerdict::accepted;
+  if (verdict == MessageVerdict::accepted) peer_watch_.believed(*admitted, now);
+  if (verdict == MessageVerdict::malformed)
+    peer_watch_.complain(message->robot_id, PeerFault::malformed, "its messages are of another time", now);
   return verdict;
 }
 
@@ -150,17 +155,17 @@ PlannerCounts PlannerHost::counts() const {
 
 void PlannerHost::forget_agent(const Pose2& correction) {
   counts_ = counts();
+  if (map_) {
+    const OccupancyMap before = agent_ ? agent_->map() : *map_;
+    map_->take_over_sensed(before, correction);
+  }
   agent_.reset();
   standing_.forget();
 }
 
 void PlannerHost::meet_clock_jump() {
-  if (map_) {
-    const OccupancyMap before = agent_ ? agent_->map() : *map_;
-    map_->take_over_sensed(before, correction);
-  }
   forget_agent();
-  witness_.forget();
+  peer_watch_.forget();
   last_scan_time_ = kNever;
   last_detections_time_ = kNever;
   vouched_time_ = kNever;
@@ -249,8 +254,9 @@ void PlannerHost::plan(double now, const Localiser* localiser) {
   if (told) {
     agent_sequence_ = told->sequence;
     told->sequence += sequence_;
+    peer_watch_.told(*told);
+    output_.broadcast = *told;
   }
-  if (told) output_.broadcast = *told;
   TrajectoryMessage& plan = output_.plan;
   plan.robot_id = robot_id_;
   plan.priority = agent_parameters_.team.priority;
@@ -280,6 +286,18 @@ std::string PlannerHost::fault() const {
   if (!agent_) return status().reason;
   if (stop_cause_ == StopCause::none || stop_cause_ == StopCause::paused) return {};
   return to_string(stop_cause_);
+}
+
+Health PlannerHost::health(double now) const {
+  const PlannerStatus status = this->status();
+  Health health{Level::ok, status.reason};
+  const bool moves = status.reason == to_string(StopCause::none);
+  if (moves && status.state == PeerState::braking) health.text = "brakes";
+  const bool done = !goal_ || status.state == PeerState::arrived;
+  if (!done && !(moves && status.state == PeerState::moving)) health.level = Level::warn;
+  if (!fault().empty()) health = {Level::error, fault()};
+  peer_watch_.add_to(health, now);
+  return health;
 }
 
 }  // namespace spf::host

@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "host/health.hpp"
 #include "host/localiser.hpp"
-#include "host/peer_witness.hpp"
+#include "host/peer_watch.hpp"
 #include "host/standing_detector.hpp"
 #include "host/watchdog.hpp"
 #include "spf/team/robot_agent.hpp"
@@ -21,6 +22,7 @@ namespace spf::host {
 enum class ObservationVerdict {
   accepted,
   malformed,  ///< times not finite, a scan without sense
+  blind,      ///< a scan more than half of whose beams have no reading
   future,
   late,  ///< not newer than the last of its kind, or too old to rely on
 };
@@ -87,8 +89,14 @@ class PlannerHost {
   void set_switches(const Switches& switches) { switches_ = switches; }
   /// Every candidate of a plan is kept for display from the next start on (allocates).
   void set_keep_candidates(bool keep) { keep_candidates_ = keep; }
-  /// The host could not even read something.
-  void count_malformed_message() { ++counts_.messages_malformed; }
+  /// Something is wrong with a peer; and so is with one whose message could not even be read.
+  void complain(int robot_id, PeerFault fault, const std::string& text, double now) {
+    peer_watch_.complain(robot_id, fault, text, now);
+  }
+  void refuse_message(int robot_id, PeerFault fault, const std::string& why, double now) {
+    ++counts_.messages_malformed;
+    peer_watch_.complain(robot_id, fault, why, now);
+  }
   void count_refused_input() { ++counts_.inputs_refused; }
   /// Everything that was known is forgotten, but for the goal, the map, and what was sensed of it.
   void meet_clock_jump();
@@ -102,6 +110,10 @@ class PlannerHost {
   [[nodiscard]] PlannerCounts counts() const;
   /// What is missing, pauses apart; empty when all is well.
   [[nodiscard]] std::string fault() const;
+  /// The robot as its planner knows it: well only while it goes to its goal, has arrived or has none, lacks
+  /// nothing, and is at odds with nobody.
+  [[nodiscard]] Health health(double now) const;
+  [[nodiscard]] const PeerWatch& peer_watch() const { return peer_watch_; }
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
   /// Null until it has started.
   [[nodiscard]] const RobotAgent* agent() const { return agent_ ? &*agent_ : nullptr; }
@@ -124,7 +136,7 @@ class PlannerHost {
   AgentParameters agent_parameters_;
   HostParameters host_;
   Watchdog watchdog_;
-  PeerWitness witness_;
+  PeerWatch peer_watch_;
   StandingDetector standing_;
   std::optional<OccupancyMap> map_;
   bool needs_map_ = true;

@@ -142,4 +142,16 @@ void TrackerHost::brake(double now, const MotionState& state) {
   command_.reference_pose << braking_->position(now), braking_->heading().state(now).heading;
 }
 
+Health TrackerHost::health() const {
+  switch (command_.stop) {
+    case StopCause::none:
+      return {Level::ok, "tracking"};
+    case StopCause::paused:
+    case StopCause::far_from_plan:
+      return {Level::warn, to_string(command_.stop)};
+    default:
+      return {Level::error, to_string(command_.stop)};
+  }
+}
+
 }  // namespace spf::host

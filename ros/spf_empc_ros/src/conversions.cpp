@@ -206,12 +206,26 @@ Converted<spf::RangeScan> from_message(const sensor_msgs::LaserScan& scan) {
   result.angle_min = scan.angle_min;
   result.angle_increment = scan.angle_increment;
   result.max_range = scan.range_max;
-  result.ranges.reserve(count);
-  for (const float range : scan.ranges) {
-    const bool reading = range >= scan.range_min;  // and not NaN
-    result.ranges.push_back(reading ? range : std::numeric_limits<double>::quiet_NaN());
-  }
+  result.ranges.assign(scan.ranges.begin(), scan.ranges.end());
   return {std::move(result), {}};
+}
+
+Converted<spf::host::DriverScan> driver_scan(const sensor_msgs::LaserScan& scan,
+                                             const geometry_msgs::Pose& scanner_in_body) {
+  using Result = Converted<spf::host::DriverScan>;
+  Converted<spf::RangeScan> readings = from_message(scan);
+  if (!readings) return Result::refused(readings.refusal);
+  const geometry_msgs::Point& at = scanner_in_body.position;
+  const geometry_msgs::Quaternion& q = scanner_in_body.orientation;
+  const std::optional<spf::host::ScannerMount> mount =
+      spf::host::planar_mount({at.x, at.y, at.z}, Eigen::Quaterniond{q.w, q.x, q.y, q.z});
+  if (!mount) return Result::refused("its scanner is not mounted level: neither upright nor upside down");
+  spf::host::DriverScan driver;
+  driver.scan = std::move(*readings.value);
+  driver.min_range = scan.range_min;
+  driver.duration = static_cast<double>(scan.time_increment) * static_cast<double>(scan.ranges.size());
+  driver.mount = *mount;
+  return {std::move(driver), {}};
 }
 
 sensor_msgs::LaserScan to_message(const spf::RangeScan& scan) {

@@ -32,12 +32,11 @@ TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const 
       config_{config},
       clock_{start},
       host_{config.robot_id, config.agent, config.file.host},
-      diagnostics_{node_, config.robot_id, "tracker"},
-      switch_{node_,
-              [this](bool paused, bool stop) {
+      frames_{config.agent.team.stale_time},
+      diagnostics_{node_, config_, "tracker", clock_},
+      switch_{node_, [this](bool paused, bool stop) {
                 host_.tracker().set_switches({stop, paused});
-              }},
-      base_frame_{"robot" + std::to_string(config.robot_id) + "/base_link"} {
+              }} {
   cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   wheel_speeds_ = node_.advertise<spf_empc_msgs::WheelSpeeds>("wheel_speeds", 1);
   estimate_ = node_.advertise<nav_msgs::Odometry>("estimate", 5);
@@ -53,20 +52,22 @@ TrackerNode::~TrackerNode() {
   cmd_vel_.publish(geometry_msgs::Twist{});
 }
 
-void TrackerNode::refuse(const char* what, const std::string& why) {
-  last_refusal_ = std::string{what} + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "%s", last_refusal_.c_str());
+void TrackerNode::refuse(const char* what, const std::string& why, bool harmless) {
+  refusals_.note(what, why, now(), harmless);
+  ROS_WARN_THROTTLE(1.0, "%s", refusals_.last().c_str());
 }
 
 void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
-  const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
-  if (!pose) {
+  const Converted<PlacedPose> placed =
+      frames_.pose_of_any_age(odometry->header, odometry->pose.pose, config_.frame);
+  if (!placed) {
     host_.localiser().count_refused_pose();
-    return refuse("odom", pose.refusal);
+    return refuse("odom", placed.refusal);
   }
-  const spf::host::PoseVerdict verdict =
-      host_.add_pose({clock_.seconds(odometry->header.stamp), *pose}, now());
-  if (!believed(verdict)) refuse("odom", to_string(verdict));
+  const double time = clock_.seconds(odometry->header.stamp);
+  const spf::host::PoseVerdict verdict = host_.add_pose({time, placed->pose}, now());
+  if (!believed(verdict)) return refuse("odom", to_string(verdict), verdict == spf::host::PoseVerdict::late);
+  if (!placed->by_itself) host_.localiser().placed_by_transform_of(time - placed->age);
 }
 
 void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
@@ -76,7 +77,8 @@ void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory)
     return refuse("trajectory", told.refusal);
   }
   const spf::host::PlanVerdict verdict = host_.add_plan(told->message, now());
-  if (verdict != spf::host::PlanVerdict::accepted) return refuse("trajectory", to_string(verdict));
+  if (verdict != spf::host::PlanVerdict::accepted)
+    return refuse("trajectory", to_string(verdict), verdict == spf::host::PlanVerdict::late);
   observed_ = told->observed;
 }
 
@@ -88,7 +90,7 @@ void TrackerNode::step() {
   publish_command(time, command);
   publish_estimate(time, command);
   publish_status(time, command, control_us);
-  report(time, command);
+  report(time);
 }
 
 void TrackerNode::publish_command(const ros::Time& now, const spf::host::TrackerCommand& command) {
@@ -99,7 +101,7 @@ void TrackerNode::publish_command(const ros::Time& now, const spf::host::Tracker
   cmd_vel_.publish(twist);
   spf_empc_msgs::WheelSpeeds wheels = to_message(command.wheel_speeds, host_.tracker().max_wheel_speed());
   wheels.header.stamp = now;
-  wheels.header.frame_id = base_frame_;
+  wheels.header.frame_id = config_.base_frame;
   wheel_speeds_.publish(wheels);
 }
 
@@ -108,7 +110,7 @@ void TrackerNode::publish_estimate(const ros::Time& now, const spf::host::Tracke
   nav_msgs::Odometry message;
   message.header.stamp = now;
   message.header.frame_id = config_.frame;
-  message.child_frame_id = base_frame_;
+  message.child_frame_id = config_.base_frame;
   message.pose.pose = to_message(command.estimate.pose_world);
   message.pose.covariance[0] = message.pose.covariance[7] = command.estimate.position_variance;
   message.pose.covariance[35] = command.estimate.heading_variance;
@@ -140,22 +142,19 @@ void TrackerNode::publish_status(const ros::Time& now, const spf::host::TrackerC
   status_.publish(message);
 }
 
-void TrackerNode::report(const ros::Time& now, const spf::host::TrackerCommand& command) {
-  const std::string mode = mode_of(command);
-  if (!diagnostics_.due(now, mode)) return;
-  using spf::StopCause;
-  Health health = Health::missing;
-  if (command.stop == StopCause::none) health = Health::ok;
-  if (command.stop == StopCause::paused || command.stop == StopCause::far_from_plan)
-    health = Health::standing;
+void TrackerNode::report(const ros::Time& now) {
   const double seconds = clock_.seconds(now);
+  spf::host::Health health = host_.tracker().health();
+  refusals_.add_to(health, seconds);
+  if (!diagnostics_.due(now, health)) return;
   Diagnostics::Values values{{"pose age", age_text(host_.localiser().pose_age(seconds))},
+                             {"localisation age", age_text(host_.localiser().localisation_age(seconds))},
                              {"plan age", age_text(host_.tracker().plan_age(seconds))},
                              {"poses refused", std::to_string(host_.localiser().poses_refused())},
                              {"plans refused", std::to_string(host_.tracker().plans_refused())},
                              {"clock jumps", std::to_string(host_.clock_jumps())}};
-  if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
-  diagnostics_.report(now, health, mode, values);
+  if (!refusals_.last().empty()) values.emplace_back("last refusal", refusals_.last());
+  diagnostics_.report(now, health, values);
 }
 
 }  // namespace spf_empc_ros
