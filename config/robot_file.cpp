@@ -64,6 +64,10 @@ std::string to_yaml_text(const RobotFile& file, bool explains) {
 AgentParameters agent_parameters(const RobotFile& file) {
   AgentParameters parameters = file.agent;
   parameters.robot = file.robot;
+  if (parameters.perception.enabled) {
+    parameters.perception.map_scans = true;
+    parameters.perception.moving_alone = file.host.relies_on_obstacles;
+  }
   return parameters;
 }
 

@@ -53,7 +53,8 @@ struct RobotFile {
 /// The text of a file that gives `file`, with every key written out.
 [[nodiscard]] std::string to_yaml_text(const RobotFile& file, bool explains = false);
 
-/// The agent's parameters: `agent` with the file's robot.
+/// The agent's parameters: `agent` with the file's robot. Where nobody reports moving obstacles
+/// (`host.relies_on_obstacles: false`), perception tells of all that it finds, not of what has moved alone.
 [[nodiscard]] AgentParameters agent_parameters(const RobotFile& file);
 
 }  // namespace spf

@@ -36,6 +36,18 @@ TEST(RobotFile, ReadsWhatConcernsOneRobot) {
   EXPECT_EQ(typeid(*agent.make_planner(agent)), typeid(*MethodTable{}.at("spf_empc").make_planner(agent)));
 }
 
+TEST(RobotFile, PerceptionTellsOfEverythingWhereNobodyElseDoes) {
+  const auto perception = [](const std::string& host) {
+    const std::string text = "agent: {perception: {enabled: true}}\n" + host;
+    return agent_parameters(robot_file_from_text(text, "robot.yaml")).perception;
+  };
+  const PerceptionParameters alone = perception("host: {relies_on_obstacles: false}\n");
+  EXPECT_TRUE(alone.enabled);
+  EXPECT_TRUE(alone.map_scans);
+  EXPECT_FALSE(alone.moving_alone);
+  EXPECT_TRUE(perception("").moving_alone);
+}
+
 TEST(RobotFile, RefusesWithTheMessagesOfTheProgram) {
   EXPECT_EQ(problems("robot: {radus: 1}\n"),
             "robot.yaml:1:9: robot.radus = 1 is not a known key; did you mean robot.radius?");

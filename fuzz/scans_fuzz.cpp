@@ -66,7 +66,9 @@ void tell_hosts(fuzz::Bytes bytes) {
     planner.add_pose({now, Pose2{}}, now);
     if (i >= 30 && i % 5 == 0) {
       const Observation observation = observation_of(bytes, now);
-      if (auto sensed = perception.add_scan(observation.time, *observation.scan, pose_of(bytes), now))
+      const host::DriverScan driver{*observation.scan, 0.0, 0.1, {pose_of(bytes), i % 2 == 0}};
+      perception.applied(now, {1.0, -0.5, 0.2});
+      if (auto sensed = perception.add_scan(observation.time, driver, now))
         planner.add_observation(*sensed, now);
       if (auto sensed = perception.add_detections(observation.time, observation.detections, now))
         planner.add_observation(*sensed, now);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,7 @@ class Bench {
     pose.position_world += kTick * velocity_world;
     pose.heading = wrap_angle(pose.heading + kTick * yaw_rate);
     if (send_poses) tell_pose({now, distorted(pose)});
+    deliver_late_scans();
     if (ticks_ % 10 == 0) observe();
     if (ticks_ % 10 == 0 && each_tenth) each_tenth();
     if (planner_alive) think();
@@ -123,7 +125,9 @@ class Bench {
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();
   double yaw_rate = 0.0;
   bool send_poses = true;
+  std::optional<double> localised;  // [s] when the transform that places the poses was last known
   bool send_scans = true;
+  double scan_delay = 0.0;  // [s] a scan comes so long after it was made
   bool send_detections = true;
   bool planner_alive = true;
   bool planner_sees_scans = true;  // or the guard alone
@@ -138,10 +142,14 @@ class Bench {
   void tell_pose(const PoseMeasurement& measured) {
     if (!split) {
       robot.add_pose(measured, now);
+      if (localised) robot.localiser().placed_by_transform_of(*localised);
       return;
     }
     driving.add_pose(measured, now);
-    if (planner_alive) planning.add_pose(measured, now);
+    if (localised) driving.localiser().placed_by_transform_of(*localised);
+    if (!planner_alive) return;
+    planning.add_pose(measured, now);
+    if (localised) planning.localiser().placed_by_transform_of(*localised);
   }
   void observe() {
     if (send_detections && planner_alive) {
@@ -155,7 +163,17 @@ class Bench {
     sensed.observation.time = now;
     sensed.observation.scan = scan();
     if (split) driving.add_scan(now, *sensed.observation.scan, Pose2{}, now);
-    if (planner_alive && planner_sees_scans) tell_seen(sensed);
+    if (!planner_sees_scans) return;
+    if (scan_delay > 0.0)
+      late_scans_.push_back(sensed);
+    else if (planner_alive)
+      tell_seen(sensed);
+  }
+  void deliver_late_scans() {
+    while (!late_scans_.empty() && late_scans_.front().observation.time + scan_delay <= now + 1e-9) {
+      if (planner_alive) tell_seen(late_scans_.front());
+      late_scans_.erase(late_scans_.begin());
+    }
   }
   void tell_seen(const SensedWorld& sensed) {
     if (split)
@@ -198,6 +216,7 @@ class Bench {
   }
 
   long ticks_ = 0;
+  std::vector<SensedWorld> late_scans_;
 };
 
 }  // namespace spf::host

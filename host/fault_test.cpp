@@ -1,5 +1,5 @@
-// Each fault and its reaction, of a robot in one process and of one that is split: the table of docs/ros.md,
-// without ROS.
+// Each fault and its reaction, of a robot in one process and of one that is split: the table of
+// docs/faults.md, without ROS.
 #include <gtest/gtest.h>
 
 #include "host/bench_test.hpp"
@@ -58,11 +58,48 @@ TEST_P(Faults, StalePose) {
   expect_brakes_and_recovers(bench, bench.send_poses, kStale - kTick, kStale + kReaction, "stale pose");
 }
 
+// Odometry goes on, but what places it in the map has died.
+TEST_P(Faults, StaleLocalisation) {
+  Bench bench{GetParam()};
+  bool alive = true;
+  double last = 0.0;
+  const auto localise = [&] {
+    if (alive) last = bench.now;
+    bench.localised = last;
+  };
+  localise();
+  bench.each_tenth = localise;
+  bench.drive();
+  // The last word may be up to 0.1 s old when it ends.
+  expect_brakes_and_recovers(bench, alive, kStale - 0.1 - 2.0 * kTick, kStale + kReaction,
+                             "stale localisation");
+}
+
 TEST_P(Faults, StaleScan) {
   Bench bench{GetParam()};
   bench.drive();
   // The last scan may be up to 0.1 s old when they end.
   expect_brakes_and_recovers(bench, bench.send_scans, kStale - 0.1 - kTick, kStale + kReaction, "no scan");
+}
+
+// A scanner or a network that is slow: what is seen lies where it was seen from, not where the robot is now.
+TEST_P(Faults, ScansThatComeLateAreSeenFromWhereTheyWereMade) {
+  for (const double delay : {0.0, 0.05, 0.15}) {
+    Bench bench{GetParam()};
+    bench.scan_delay = delay;
+    bench.pillars = {{{3.0, 2.0}, 0.4}, {{6.0, -2.0}, 0.4}, {{9.0, 2.0}, 0.4}};
+    ASSERT_TRUE(bench.planner.set_goal({{12.0, 0.0}, std::nullopt}));
+    bench.run(9.0);
+    ASSERT_GT(bench.pose.position_world.x(), 5.0) << bench.reason();
+    const std::vector<Eigen::Vector2d> seen = bench.planner.map()->occupied_points();
+    EXPECT_GT(seen.size(), 15u);
+    for (const Eigen::Vector2d& point : seen) {
+      double off = 1e9;
+      for (const Pillar& pillar : bench.pillars)
+        off = std::min(off, std::abs((point - pillar.center).norm() - pillar.radius));
+      EXPECT_LT(off, 0.03) << delay << ": " << point.transpose();
+    }
+  }
 }
 
 TEST_P(Faults, StaleReportsOfObstacles) {

@@ -2,16 +2,39 @@
 // honest sensor, clock or peer would say.
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include "host/guard_parameters.hpp"
 #include "spf/math/parameters.hpp"
+
+namespace spf {
+
+namespace host {
+/// Which readings of a range sensor say that nothing is there. Infinity and readings beyond its range always
+/// do; what is none of these and no range is no reading: covered, broken, or too near.
+enum class NoReturn { infinite, zero, nan, any };
+}  // namespace host
+
+template <>
+struct EnumNames<host::NoReturn> {
+  static constexpr std::array<std::pair<host::NoReturn, const char*>, 4> values{
+      {{host::NoReturn::infinite, "infinite"},
+       {host::NoReturn::zero, "zero"},
+       {host::NoReturn::nan, "nan"},
+       {host::NoReturn::any, "any"}}};
+};
+
+}  // namespace spf
 
 namespace spf::host {
 
 struct HostParameters {
-  bool relies_on_scan = true;        ///< stands without fresh scans
-  bool relies_on_obstacles = true;   ///< stands without fresh reports of moving obstacles
-  double plan_silence = 0.5;         ///< [s] without a word of the planner until the tracker brakes
-  double command_silence = 0.5;      ///< [s] without a word of what the wheels are told: they stand
+  bool relies_on_scan = true;               ///< stands without fresh scans
+  bool relies_on_obstacles = true;          ///< stands without fresh reports of moving obstacles
+  NoReturn no_return = NoReturn::infinite;  ///< how the scanner says that nothing is there
+  double plan_silence = 0.5;                ///< [s] without a word of the planner until the tracker brakes
+  double command_silence = 0.5;             ///< [s] without a word of what the wheels are told: they stand
   double largest_plan_error = 0.6;   ///< [m] farther from its plan the tracker stands and waits for a new one
   double jump_distance = 0.5;        ///< [m] beyond what the robot can drive: the pose has jumped
   double jump_heading = 0.5;         ///< [rad] likewise
@@ -19,6 +42,7 @@ struct HostParameters {
   double clock_error = 0.1;          ///< [s] by which a stamp may be ahead of the clock
   double clock_jump = 1.0;           ///< [s] between two steps: beyond, the clock has jumped
   bool trusts_peers = false;         ///< peers are taken at their word, unchecked
+  double peer_clock_error = 0.05;    ///< [s] beyond, a peer's clock is off and the peer a stranger
   double largest_peer_radius = 2.0;  ///< [m] messages of larger peers are malformed
   double largest_peer_sigma = 1.0;   ///< [m] likewise of those who do not know where they are
   double largest_peer_speed = 10.0;  ///< [m/s] likewise of faster ones
@@ -32,6 +56,9 @@ struct HostParameters {
     visit("relies_on_scan", self.relies_on_scan, "the robot stands without fresh scans");
     visit("relies_on_obstacles", self.relies_on_obstacles,
           "the robot stands without fresh reports of moving obstacles, empty ones included");
+    visit("no_return", self.no_return,
+          "readings of the scanner that mean \"nothing there\" beside infinite ones and those beyond its "
+          "range");
     visit("plan_silence", self.plan_silence, "s", Range{0.05, 10.0},
           "without a word of the planner for this long the tracker brakes");
     visit("command_silence", self.command_silence, "s", Range{0.05, 10.0},
@@ -50,6 +77,8 @@ struct HostParameters {
     visit(
         "trusts_peers", self.trusts_peers,
         "peers are taken at their word: neither their messages nor that they are where they say is checked");
+    visit("peer_clock_error", self.peer_clock_error, "s", Range{0.001, 10.0},
+          "a peer whose clock differs by more is kept away from as from a stranger");
     visit("largest_peer_radius", self.largest_peer_radius, "m", Range{0.01, 100.0},
           "messages of larger peers are malformed");
     visit("largest_peer_sigma", self.largest_peer_sigma, "m", Range{0.0, 100.0},

@@ -1,13 +1,18 @@
 #include "host/localiser.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+
+#include "spf/math/angles.hpp"
 
 namespace spf::host {
 Localiser::Localiser(const AgentParameters& agent, const HostParameters& host)
     : gate_{validated(host), validated(agent).robot},
       estimator_{agent.tracker.observer, OmniKinematics{agent.robot},
                  reckoned_lag(agent.tracker, agent.robot)},
+      history_{agent.team.stale_time},
       command_silence_{host.command_silence} {}
 
 PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
@@ -18,12 +23,26 @@ PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
   }
   if (verdict == PoseVerdict::relocalised) {
     const Eigen::Vector3d command = estimator_.state().command;
+    const Pose2 thought = estimator_.estimate(pose.time).pose_world;
+    correction_.heading = angle_difference(pose.pose_world.heading, thought.heading);
+    correction_.position_world =
+        pose.pose_world.position_world - Eigen::Rotation2Dd{correction_.heading} * thought.position_world;
     estimator_.reset();
+    history_.clear();
     estimator_.apply(pose.time, command);
   }
   advance_to(pose.time);
   estimator_.observe(pose.time, pose.pose_world);
+  history_.add(estimator_.time(), estimator_.state().estimate.pose_world);
   return verdict;
+}
+
+std::optional<Pose2> Localiser::pose(double time) const {
+  if (time < estimator_.time())
+    if (const std::optional<Pose2> then = history_.at(time)) return then;
+  const StateEstimate ahead = estimator_.estimate(time);
+  if (!ahead.valid) return std::nullopt;
+  return ahead.pose_world;
 }
 
 void Localiser::applied(double time, const Eigen::Vector3d& wheel_speeds) {
@@ -45,7 +64,9 @@ void Localiser::advance_to(double now) {
 void Localiser::meet_clock_jump(double now) {
   const MotionState before = estimator_.state();
   gate_.reset();
+  placed_time_.reset();
   estimator_.reset();
+  history_.clear();
   if (before.estimate.valid) estimator_.observe(now, before.estimate.pose_world);
   // After a long pause (the process was suspended) a base that was told nothing has stopped by itself.
   standing_ = standing_ || now - command_time_ > command_silence_;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/pose_gate.hpp"
+#include "host/pose_history.hpp"
 #include "host/scan_guard.hpp"
 #include "host/step_clock.hpp"
 #include "spf/localisation/motion_estimator.hpp"
@@ -24,6 +25,12 @@ class Localiser {
 
   /// Enters a pose that is believed. After a jump that persisted nothing older counts.
   PoseVerdict add_pose(const PoseMeasurement& pose, double now);
+  /// Of the last pose that was believed: the transform that placed it in the world was last known at this
+  /// time [s]. Its robot is localised no later, however fresh its odometry. Not called where poses are
+  /// measured in the world itself.
+  void placed_by_transform_of(double time) { placed_time_ = time; }
+  /// What the last relocalisation did: a place that was taken for p is turned by this and then shifted by it.
+  [[nodiscard]] const Pose2& correction() const { return correction_; }
   /// Rim speeds [m/s] that the motors are told from a time on, held until the next: those that were really
   /// applied. Those that are not finite count as none. What is older than the last is ignored; the caller
   /// sees to it that nothing lies ahead of the present, where it would carry the estimate.
@@ -41,23 +48,30 @@ class Localiser {
 
   /// As of the last call that changed it.
   [[nodiscard]] MotionState state() const { return estimator_.state(); }
-  /// Carried to a time not before the last call, without changing anything.
+  /// Carried to a time [s] ahead, without changing anything; for one that has passed the present.
   [[nodiscard]] StateEstimate estimate(double time) const { return estimator_.estimate(time); }
+  /// Where it is at a time [s], or was: what is sensed is some moments old. Nothing where that is not known.
+  [[nodiscard]] std::optional<Pose2> pose(double time) const;
   /// state(), for displays.
   [[nodiscard]] AgentEstimate belief() const;
   /// That of the last note_guard(), while commands come.
   [[nodiscard]] GuardAction guard() const { return guard_; }
   [[nodiscard]] bool has_pose() const { return gate_.last().has_value(); }
   [[nodiscard]] double pose_age(double now) const { return gate_.age(now); }  ///< [s] infinite without one
+  /// [s] since the robot was last localised; zero where no transform has placed its poses.
+  [[nodiscard]] double localisation_age(double now) const { return placed_time_ ? now - *placed_time_ : 0.0; }
   [[nodiscard]] double command_age(double now) const { return now - command_time_; }  ///< [s] likewise
   [[nodiscard]] std::uint32_t poses_refused() const { return poses_refused_; }
 
  private:
   PoseGate gate_;
   MotionEstimator estimator_;
-  double command_silence_;        // [s]
-  double command_time_ = kNever;  // [s] when the last command was applied
-  bool standing_ = true;          // no command is in force
+  PoseHistory history_;
+  Pose2 correction_;
+  double command_silence_;             // [s]
+  double command_time_ = kNever;       // [s] when the last command was applied
+  std::optional<double> placed_time_;  // [s]
+  bool standing_ = true;               // no command is in force
   GuardAction guard_ = GuardAction::none;
   std::uint32_t poses_refused_ = 0;
 };

@@ -59,6 +59,35 @@ TEST_F(LocaliserTest, IsCarriedByWhatWasApplied) {
   EXPECT_LT(x(now + 0.4), 0.8 * now + 0.8 * agent.robot.motor_lag + 0.01);
 }
 
+TEST_F(LocaliserTest, KnowsWhereItWas) {
+  EXPECT_FALSE(localiser.pose(0.0));
+  drive(2.0, 0.8, 0.8);
+  localiser.advance_to(now + 0.05);  // a control tick between two poses
+  for (const double before : {0.0, 0.003, 0.1, 0.27, 0.3}) {
+    ASSERT_TRUE(localiser.pose(now - before));
+    EXPECT_NEAR(localiser.pose(now - before)->position_world.x(), 0.8 * (now - before), 0.005) << before;
+  }
+  EXPECT_NEAR(localiser.pose(now + 0.1)->position_world.x(), 0.8 * (now + 0.1), 0.01);
+  for (int i = 0; i < 1000; ++i) {  // poses at 10 kHz do not shorten its memory
+    now += 1e-4;
+    ASSERT_TRUE(believed(localiser.add_pose(pose_at(now, 0.8 * now), now)));
+  }
+  EXPECT_NEAR(localiser.pose(now - 0.3)->position_world.x(), 0.8 * (now - 0.3), 0.02);
+}
+
+TEST(PoseHistory, TurnsTheShortWayRound) {
+  PoseHistory history{0.3};
+  EXPECT_FALSE(history.at(1.0));
+  history.add(1.0, {{0.0, 0.0}, 3.0});
+  history.add(2.0, {{1.0, 0.0}, -3.0});
+  history.add(1.5, {{9.0, 9.0}, 0.0});  // late
+  ASSERT_TRUE(history.at(1.5));
+  EXPECT_NEAR(history.at(1.5)->position_world.x(), 0.5, 1e-12);
+  EXPECT_NEAR(std::abs(history.at(1.5)->heading), 3.14159265, 1e-6);
+  EXPECT_NEAR(history.at(0.0)->heading, 3.0, 1e-12);
+  EXPECT_FALSE(history.at(2.1));
+}
+
 TEST_F(LocaliserTest, TakesWhatWasNotAppliedForADisturbance) {
   drive(6.0, 0.4, 0.8);  // told that 0.8 m/s was commanded, of which a limit left the half
   EXPECT_NEAR(localiser.belief().disturbance_world.x(), -0.4, 0.1);

@@ -18,6 +18,8 @@ const char* to_string(ObservationVerdict verdict) {
       return "accepted";
     case ObservationVerdict::malformed:
       return "malformed";
+    case ObservationVerdict::blind:
+      return "half blind";
     case ObservationVerdict::future:
       return "from the future";
     case ObservationVerdict::late:
@@ -40,20 +42,24 @@ PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostP
       agent_parameters_{validated(agent)},
       host_{validated(host)},
       watchdog_{host_, agent_parameters_.team.stale_time},
+      peer_watch_{robot_id, host_.peer_clock_error},
       standing_{host_, agent_parameters_.robot},
       sequence_{first_sequence} {
   refuse_contradictions(contradictions(agent_parameters_, host_));
 }
 
 void PlannerHost::set_map(OccupancyMap map) {
+  if (agent_)
+    agent_->set_map(map);
+  else if (map_)
+    map.take_over_sensed(*map_);
   map_ = std::move(map);
-  forget_agent();  // it knows another one
 }
 
 // ---- what comes in ----------------------------------------------------------------------------------------
 
-void PlannerHost::note_pose(const PoseMeasurement& pose, PoseVerdict verdict) {
-  if (verdict == PoseVerdict::relocalised) forget_agent();
+void PlannerHost::note_pose(const PoseMeasurement& pose, PoseVerdict verdict, const Localiser& localiser) {
+  if (verdict == PoseVerdict::relocalised) forget_agent(localiser.correction());
   if (believed(verdict) && !agent_) standing_.add(pose);
 }
 
@@ -78,10 +84,10 @@ ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, doubl
   if (observation.scan) last_scan_time_ = std::max(last_scan_time_, observation.time);
   if (sensed.has_detections) last_detections_time_ = std::max(last_detections_time_, observation.time);
   if (!agent_) return verdict;
-  const StateEstimate then = localiser != nullptr ? localiser->estimate(observation.time) : StateEstimate{};
   std::optional<Pose2> from;
-  if (then.valid) from = then.pose_world;
-  if (localiser == nullptr) {
+  if (localiser != nullptr) {
+    from = localiser->pose(observation.time);
+  } else {
     const Trajectory& plan = agent_->committed();
     from = Pose2{plan.position(observation.time), plan.heading().state(observation.time).heading};
   }
@@ -92,11 +98,8 @@ ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, doubl
 
 /// Before the scan enters the map: whose discs are not to hide what it shows.
 void PlannerHost::doubt_peers(const Observation& observation, const Pose2& pose_world) {
-  witness_.see(*observation.scan, pose_world, observation.time, agent_->peers());
-  std::vector<int> doubted;
-  for (const Peer& peer : agent_->peers())
-    if (!witness_.trusts(peer.robot_id, observation.time)) doubted.push_back(peer.robot_id);
-  agent_->set_distrusted(std::move(doubted));
+  peer_watch_.see(*observation.scan, pose_world, observation.time, agent_->peers());
+  agent_->set_distrusted(peer_watch_.distrusted(agent_->peers(), observation.time));
 }
 
 bool PlannerHost::well_formed(const TrajectoryMessage& message) const {
@@ -106,16 +109,21 @@ bool PlannerHost::well_formed(const TrajectoryMessage& message) const {
 }
 
 MessageVerdict PlannerHost::add_message(const HeardMessage& message, double now) {
-  if (message->robot_id == robot_id_) return MessageVerdict::own;
-  if (!host_.trusts_peers) {
-    if (!well_formed(message)) {
-      ++counts_.messages_malformed;
-      return MessageVerdict::malformed;
-    }
+  if (host_.trusts_peers) {
+    if (message->robot_id == robot_id_) return MessageVerdict::own;
+    return agent_ ? agent_->hear(message, now) : MessageVerdict::accepted;
   }
+  if (!well_formed(message)) {
+    refuse_message(message->robot_id, PeerFault::malformed, "its messages are out of range", now);
+    return MessageVerdict::malformed;
+  }
+  const std::optional<HeardMessage> admitted = peer_watch_.admitted(message, now);
+  if (!admitted) return MessageVerdict::own;
   // The agent's table judges the rest: order, age, clock.
-  const MessageVerdict verdict = agent_ ? agent_->hear(message, now) : MessageVerdict::accepted;
-  if (verdict == MessageVerdict::accepted && !host_.trusts_peers) witness_.hear(message, now);
+  const MessageVerdict verdict = agent_ ? agent_->hear(*admitted, now) : MessageVerdict::accepted;
+  if (verdict == MessageVerdict::accepted) peer_watch_.believed(*admitted, now);
+  if (verdict == MessageVerdict::malformed)
+    peer_watch_.complain(message->robot_id, PeerFault::malformed, "its messages are of another time", now);
   return verdict;
 }
 
@@ -152,15 +160,19 @@ PlannerCounts PlannerHost::counts() const {
 
 // ---- starting and starting afresh -------------------------------------------------------------------------
 
-void PlannerHost::forget_agent() {
+void PlannerHost::forget_agent(const Pose2& correction) {
   counts_ = counts();
+  if (map_) {
+    const OccupancyMap before = agent_ ? agent_->map() : *map_;
+    map_->take_over_sensed(before, correction);
+  }
   agent_.reset();
   standing_.forget();
 }
 
 void PlannerHost::meet_clock_jump() {
   forget_agent();
-  witness_.forget();
+  peer_watch_.forget();
   last_scan_time_ = kNever;
   last_detections_time_ = kNever;
   vouched_time_ = kNever;
@@ -176,7 +188,8 @@ void PlannerHost::start_when_ready(double now, const Localiser& localiser) {
 }
 
 void PlannerHost::start(const OccupancyMap& map, const Pose2& pose_world, double now) {
-  set_map(map);
+  forget_agent();
+  map_ = map;
   vouched_time_ = now;
   make_agent(pose_world, now);
 }
@@ -207,7 +220,10 @@ StopCause PlannerHost::stop_cause(double now, const Localiser* localiser) const 
   WatchFacts facts;
   facts.emergency_stop = switches_.emergency_stop;
   facts.paused = switches_.paused;
-  if (localiser != nullptr) facts.pose_age = localiser->pose_age(now);
+  if (localiser != nullptr) {
+    facts.pose_age = localiser->pose_age(now);
+    facts.localisation_age = localiser->localisation_age(now);
+  }
   if (host_.relies_on_scan) facts.scan_age = now - std::max(last_scan_time_, vouched_time_);
   if (host_.relies_on_obstacles) facts.obstacles_age = now - std::max(last_detections_time_, vouched_time_);
   return watchdog_.watch(facts);
@@ -254,8 +270,9 @@ void PlannerHost::plan(double now, const Localiser* localiser) {
   if (told) {
     agent_sequence_ = told->sequence;
     told->sequence += sequence_;
+    peer_watch_.told(*told);
+    output_.broadcast = *told;
   }
-  if (told) output_.broadcast = *told;
   TrajectoryMessage& plan = output_.plan;
   plan.robot_id = robot_id_;
   plan.priority = agent_parameters_.team.priority;
@@ -285,6 +302,18 @@ std::string PlannerHost::fault() const {
   if (!agent_) return status().reason;
   if (stop_cause_ == StopCause::none || stop_cause_ == StopCause::paused) return {};
   return to_string(stop_cause_);
+}
+
+Health PlannerHost::health(double now) const {
+  const PlannerStatus status = this->status();
+  Health health{Level::ok, status.reason};
+  const bool moves = status.reason == to_string(StopCause::none);
+  if (moves && status.state == PeerState::braking) health.text = "brakes";
+  const bool done = !goal_ || status.state == PeerState::arrived;
+  if (!done && !(moves && status.state == PeerState::moving)) health.level = Level::warn;
+  if (!fault().empty()) health = {Level::error, fault()};
+  peer_watch_.add_to(health, now);
+  return health;
 }
 
 }  // namespace spf::host

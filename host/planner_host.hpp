@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "host/health.hpp"
 #include "host/localiser.hpp"
-#include "host/peer_witness.hpp"
+#include "host/peer_watch.hpp"
 #include "host/standing_detector.hpp"
 #include "host/watchdog.hpp"
 #include "spf/team/robot_agent.hpp"
@@ -21,6 +22,7 @@ namespace spf::host {
 enum class ObservationVerdict {
   accepted,
   malformed,  ///< times not finite, a scan without sense
+  blind,      ///< a scan more than half of whose beams have no reading
   future,
   late,  ///< not newer than the last of its kind, or too old to rely on
 };
@@ -73,15 +75,17 @@ class PlannerHost {
   PlannerHost(int robot_id, const AgentParameters& agent, const HostParameters& host,
               std::uint32_t first_sequence = 0);
 
-  /// The static map. The robot waits for one, unless it is told that there is none.
+  /// The static map. The robot waits for one, unless it is told that there is none. Another one than before
+  /// (a map that is still being made) is planned with from then on; what was sensed is kept.
   void set_map(OccupancyMap map);
   void go_without_map() { needs_map_ = false; }
   /// Starts at once, without waiting to see the robot stand: the caller knows that it stands at this pose,
   /// with nothing unseen around it.
   void start(const OccupancyMap& map, const Pose2& pose_world, double now);
 
-  /// What the Localiser said of a pose: until the agent has started, it is to be seen to stand.
-  void note_pose(const PoseMeasurement& pose, PoseVerdict verdict);
+  /// What the Localiser said of a pose: until the agent has started, it is to be seen to stand. After a
+  /// relocalisation what was sensed lies where it would, had the robot been there before.
+  void note_pose(const PoseMeasurement& pose, PoseVerdict verdict, const Localiser& localiser);
   ObservationVerdict add_observation(const SensedWorld& sensed, double now, const Localiser* localiser);
   MessageVerdict add_message(const HeardMessage& message, double now);
   /// False when it is refused: not finite, or beyond all robots.
@@ -90,10 +94,16 @@ class PlannerHost {
   void set_switches(const Switches& switches) { switches_ = switches; }
   /// Every candidate of a plan is kept for display from the next start on (allocates).
   void set_keep_candidates(bool keep) { keep_candidates_ = keep; }
-  /// The host could not even read something.
-  void count_malformed_message() { ++counts_.messages_malformed; }
+  /// Something is wrong with a peer; and so is with one whose message could not even be read.
+  void complain(int robot_id, PeerFault fault, const std::string& text, double now) {
+    peer_watch_.complain(robot_id, fault, text, now);
+  }
+  void refuse_message(int robot_id, PeerFault fault, const std::string& why, double now) {
+    ++counts_.messages_malformed;
+    peer_watch_.complain(robot_id, fault, why, now);
+  }
   void count_refused_input() { ++counts_.inputs_refused; }
-  /// Everything that was known is forgotten, but for goal and map.
+  /// Everything that was known is forgotten, but for the goal, the map, and what was sensed of it.
   void meet_clock_jump();
   /// Likewise, of a robot that is where its plan says: it starts afresh `now` where it was at `then` [s].
   void restart_where_planned(double then, double now);
@@ -105,6 +115,10 @@ class PlannerHost {
   [[nodiscard]] PlannerCounts counts() const;
   /// What is missing, pauses apart; empty when all is well.
   [[nodiscard]] std::string fault() const;
+  /// The robot as its planner knows it: well only while it goes to its goal, has arrived or has none, lacks
+  /// nothing, and is at odds with nobody.
+  [[nodiscard]] Health health(double now) const;
+  [[nodiscard]] const PeerWatch& peer_watch() const { return peer_watch_; }
   [[nodiscard]] const std::optional<Goal>& goal() const { return goal_; }
   /// Null until it has started.
   [[nodiscard]] const RobotAgent* agent() const { return agent_ ? &*agent_ : nullptr; }
@@ -113,7 +127,7 @@ class PlannerHost {
   [[nodiscard]] const AgentParameters& parameters() const { return agent_parameters_; }
 
  private:
-  void forget_agent();
+  void forget_agent(const Pose2& correction = {});
   void make_agent(const Pose2& pose_world, double now);
   void start_when_ready(double now, const Localiser& localiser);
   [[nodiscard]] ObservationVerdict judge(const SensedWorld& sensed, double now) const;
@@ -128,7 +142,7 @@ class PlannerHost {
   AgentParameters agent_parameters_;
   HostParameters host_;
   Watchdog watchdog_;
-  PeerWitness witness_;
+  PeerWatch peer_watch_;
   StandingDetector standing_;
   std::optional<OccupancyMap> map_;
   bool needs_map_ = true;

@@ -19,7 +19,6 @@ namespace spf::host {
 enum class Motion {
   by_wheels,   ///< by the wheel speeds that it commands; poses are measured
   as_planned,  ///< exactly as it plans, by somebody else: it needs no poses, and its wheels are never asked.
-               ///< After a new map it is to be started again
 };
 
 /// After a step.
@@ -60,6 +59,7 @@ class RobotHost {
   [[nodiscard]] PlannerHost& planner() { return planner_; }
   [[nodiscard]] const PlannerHost& planner() const { return planner_; }
   [[nodiscard]] const TrackerHost& tracker() const { return tracker_; }
+  [[nodiscard]] Localiser& localiser() { return localiser_; }
   [[nodiscard]] const Localiser& localiser() const { return localiser_; }
   [[nodiscard]] std::uint32_t clock_jumps() const { return clock_.count(); }
   /// Requires that it has started (planner().agent() is null before, and while it starts afresh).

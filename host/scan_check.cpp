@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host/host_parameters.hpp"
 #include "spf/math/angles.hpp"
@@ -32,10 +31,11 @@ bool sensible(const Pose2& sensor_in_body) {
          sensor_in_body.position_world.allFinite() && std::isfinite(sensor_in_body.heading);
 }
 
-bool blind(const RangeScan& scan) {
+double blind_share(const RangeScan& scan) {
+  if (scan.ranges.empty()) return 1.0;
   const auto without = std::count_if(scan.ranges.begin(), scan.ranges.end(),
                                      [](double range) { return std::isnan(range) || range <= 0.0; });
-  return 2 * static_cast<std::size_t>(without) > scan.ranges.size();
+  return static_cast<double>(without) / static_cast<double>(scan.ranges.size());
 }
 
 bool sensible(const Detection& detection) {
@@ -53,37 +53,6 @@ bool sensible(const std::vector<Detection>& detections) {
   return detections.size() <= kMost &&
          std::all_of(detections.begin(), detections.end(),
                      [](const Detection& detection) { return sensible(detection); });
-}
-
-RangeScan seen_from_centre(const RangeScan& scan, const Pose2& sensor_in_body) {
-  constexpr double kAtCentre = 1e-6;  // [m]
-  RangeScan seen = scan;
-  if (sensor_in_body.position_world.norm() < kAtCentre) {
-    seen.angle_min = wrap_angle(scan.angle_min + sensor_in_body.heading);
-    return seen;
-  }
-  const std::size_t count = scan.ranges.size();
-  const double step = std::max(std::abs(scan.angle_increment), 2.0 * kPi / static_cast<double>(kMostBeams));
-  const auto bins = static_cast<std::size_t>(std::max(1.0, std::round(2.0 * kPi / step)));
-  seen.angle_min = -kPi;
-  seen.angle_increment = 2.0 * kPi / static_cast<double>(bins);
-  seen.max_range = scan.max_range + sensor_in_body.position_world.norm();
-  seen.ranges.assign(bins, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t i = 0; i < count; ++i) {
-    const double range = scan.ranges[i];
-    if (!(range > 0.0)) continue;
-    const bool returned = range <= scan.max_range;
-    const double angle =
-        sensor_in_body.heading + scan.angle_min + scan.angle_increment * static_cast<double>(i);
-    const Eigen::Vector2d end =
-        sensor_in_body.position_world +
-        std::min(range, scan.max_range) * Eigen::Vector2d{std::cos(angle), std::sin(angle)};
-    const double turn = (std::atan2(end.y(), end.x()) + kPi) / seen.angle_increment;
-    double& beam = seen.ranges[static_cast<std::size_t>(std::lround(turn)) % bins];
-    const double reading = returned ? end.norm() : std::numeric_limits<double>::infinity();
-    if (std::isnan(beam) || reading < beam) beam = reading;
-  }
-  return seen;
 }
 
 }  // namespace spf::host

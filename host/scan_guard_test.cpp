@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/driver_scan.hpp"
 #include "host/guard_world_test.hpp"
 #include "spf/testing/allocation_guard.hpp"
 
@@ -275,6 +276,25 @@ TEST(ScanGuard, TakesAScannerAnywhereOnTheRobot) {
   for (std::size_t i = 710; i < 720; ++i) scan.ranges[i] = 2.0;
   ASSERT_TRUE(world.guard.add_scan(10.0, scan, behind, 10.0));
   EXPECT_NEAR(world.guard.judge(10.0, {1.0, 0.0, 0.0}).way, 1.5, 0.01);
+}
+
+TEST(ScanGuard, TakesAScannerThatHangsUpsideDown) {
+  for (const double side : {1.0, -1.0}) {
+    GuardWorld world;
+    DriverScan driver;
+    driver.scan = world.sweep();
+    for (std::size_t i = 175; i < 186; ++i) driver.scan.ranges[i] = 2.0;  // its right is the robot's left
+    driver.mount =
+        planar_mount({0.0, 0.0, 0.3}, Eigen::Quaterniond{Eigen::AngleAxisd{kPi, Eigen::Vector3d::UnitX()}})
+            .value();
+    make_plain(driver, NoReturn::infinite);
+    ASSERT_TRUE(world.guard.add_scan(10.0, driver.scan, driver.mount.in_body, 10.0));
+    const double way = world.guard.judge(10.0, {0.0, side, 0.0}).way;
+    if (side > 0.0)
+      EXPECT_NEAR(way, 1.7, 0.01);
+    else
+      EXPECT_EQ(way, kNothing);
+  }
 }
 
 TEST(ScanGuard, RefusesScansThatSayNothingAboutNow) {

@@ -41,7 +41,7 @@ bool PlannerProcess::add_command(double time, const Eigen::Vector3d& wheel_speed
 
 bool TrackerProcess::add_scan(double time, const RangeScan& scan, const Pose2& sensor_in_body, double now) {
   now = tell_time(now);
-  return !blind(scan) && tracker_.add_scan(time, scan, sensor_in_body, now);
+  return blind_share(scan) <= kHalfBlind && tracker_.add_scan(time, scan, sensor_in_body, now);
 }
 
 double TrackerProcess::tell_time(double now) {

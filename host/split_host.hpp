@@ -20,7 +20,7 @@ class PlannerProcess {
 
   PoseVerdict add_pose(const PoseMeasurement& pose, double now) {
     const PoseVerdict verdict = localiser_.add_pose(pose, tell_time(now));
-    planner_.note_pose(pose, verdict);
+    planner_.note_pose(pose, verdict, localiser_);
     return verdict;
   }
   ObservationVerdict add_observation(const SensedWorld& sensed, double now) {

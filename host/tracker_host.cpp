@@ -96,6 +96,7 @@ StopCause TrackerHost::stop_cause(double now, const Localiser& localiser) const 
   facts.paused = switches_.paused;
   facts.clock_jumped = after_jump_ && (!localiser.has_pose() || !has_plan_);
   facts.pose_age = localiser.pose_age(now);
+  facts.localisation_age = localiser.localisation_age(now);
   if (guard_ && relies_on_scan_) facts.scan_age = guard_->scan_age(now);
   facts.plan_age = plan_age(now);
   if (has_plan_)
@@ -164,6 +165,19 @@ void TrackerHost::brake(double now, const MotionState& state) {
   command_.wheel_speeds = output.wheel_speeds;
   command_.twist_body = kinematics_.twist_body(output.wheel_speeds);
   command_.reference_pose << braking_->position(now), braking_->heading().state(now).heading;
+}
+
+Health TrackerHost::health() const {
+  switch (command_.stop) {
+    case StopCause::none:
+      return {Level::ok, "tracking"};
+    case StopCause::paused:
+    case StopCause::far_from_plan:
+    case StopCause::in_the_way:
+      return {Level::warn, to_string(command_.stop)};
+    default:
+      return {Level::error, to_string(command_.stop)};
+  }
 }
 
 }  // namespace spf::host

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "host/health.hpp"
 #include "host/localiser.hpp"
 #include "host/scan_guard.hpp"
 #include "host/watchdog.hpp"
@@ -57,6 +58,8 @@ class TrackerHost {
   const TrackerCommand& step(double now, Localiser& localiser);
 
   [[nodiscard]] const TrackerCommand& command() const { return command_; }
+  /// Well while it follows its plan.
+  [[nodiscard]] Health health() const;
   [[nodiscard]] const TrajectoryMessage& plan() const { return plan_; }
   [[nodiscard]] double plan_age(double now) const;  ///< [s] infinite without one
   [[nodiscard]] std::uint32_t plans_refused() const { return plans_refused_; }

@@ -10,6 +10,7 @@ StopCause Watchdog::watch(const WatchFacts& facts) const {
   if (facts.clock_jumped) return StopCause::clock_jump;
   if (std::isinf(facts.pose_age)) return StopCause::no_pose;
   if (facts.pose_age > stale_time_) return StopCause::stale_pose;
+  if (facts.localisation_age > stale_time_) return StopCause::stale_localisation;
   if (facts.scan_age > stale_time_) return StopCause::no_scan;
   if (facts.obstacles_age > stale_time_) return StopCause::no_obstacles;
   if (std::isinf(facts.plan_age)) return StopCause::no_plan;

@@ -14,6 +14,7 @@ struct WatchFacts {
   bool paused = false;
   bool clock_jumped = false;       ///< and nothing is known in the new time yet
   double pose_age = 0.0;           ///< [s]
+  double localisation_age = 0.0;   ///< [s] of the transform that places the poses
   double scan_age = 0.0;           ///< [s]
   double obstacles_age = 0.0;      ///< [s] of the report of moving obstacles
   double plan_age = 0.0;           ///< [s]

@@ -24,6 +24,7 @@ const std::vector<Case> kCases{
     {StopCause::clock_jump, [](WatchFacts& facts) { facts.clock_jumped = true; }},
     {StopCause::no_pose, [](WatchFacts& facts) { facts.pose_age = kEndless; }},
     {StopCause::stale_pose, [](WatchFacts& facts) { facts.pose_age = 0.31; }},
+    {StopCause::stale_localisation, [](WatchFacts& facts) { facts.localisation_age = 0.31; }},
     {StopCause::no_scan, [](WatchFacts& facts) { facts.scan_age = 0.31; }},
     {StopCause::no_obstacles, [](WatchFacts& facts) { facts.obstacles_age = kEndless; }},
     {StopCause::no_plan, [](WatchFacts& facts) { facts.plan_age = kEndless; }},
@@ -37,7 +38,7 @@ const Watchdog kWatchdog{HostParameters{}, 0.3};
 TEST(Watchdog, FindsNothingWhereAllIsWell) {
   EXPECT_EQ(kWatchdog.watch({}), StopCause::none);
   WatchFacts within;
-  within.pose_age = within.scan_age = within.obstacles_age = 0.3;
+  within.pose_age = within.localisation_age = within.scan_age = within.obstacles_age = 0.3;
   within.plan_age = 0.5;
   within.plan_error = 0.6;
   EXPECT_EQ(kWatchdog.watch(within), StopCause::none);

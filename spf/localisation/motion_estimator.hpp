@@ -35,6 +35,8 @@ class MotionEstimator {
 
   /// Propagates the estimate to a time [s]; a time before the last one changes nothing.
   void advance_to(double time);
+  /// [s] Of the estimate; meaningless before the first call that had one.
+  [[nodiscard]] double time() const { return time_; }
   /// As of the last call.
   [[nodiscard]] MotionState state() const;
   /// The estimate propagated to a time not before the last call [s]; the state does not change.

@@ -28,6 +28,8 @@ const char* to_string(StopCause cause) {
       return "no pose";
     case StopCause::stale_pose:
       return "stale pose";
+    case StopCause::stale_localisation:
+      return "stale localisation";
     case StopCause::no_scan:
       return "no scan";
     case StopCause::no_obstacles:

@@ -21,14 +21,15 @@ enum class StopCause {
   planner_failed,  ///< no safe plan within the budget; stands and tries again
   // Found by its host's watchdog (host/watchdog.hpp).
   emergency_stop,
-  paused,        ///< told to
-  clock_jump,    ///< nothing is known in the new time yet
-  no_pose,       ///< none yet
-  stale_pose,    ///< no pose for too long
-  no_scan,       ///< none for too long, or none yet
-  no_obstacles,  ///< likewise no report of moving obstacles
-  no_plan,       ///< the controller has none yet
-  stale_plan,    ///< no word of the planner for too long
+  paused,              ///< told to
+  clock_jump,          ///< nothing is known in the new time yet
+  no_pose,             ///< none yet
+  stale_pose,          ///< no pose for too long
+  stale_localisation,  ///< poses come, but the transform that places them is too old
+  no_scan,             ///< none for too long, or none yet
+  no_obstacles,        ///< likewise no report of moving obstacles
+  no_plan,             ///< the controller has none yet
+  stale_plan,          ///< no word of the planner for too long
   far_from_plan,
   in_the_way,      ///< the guard holds it before what its scanner shows
   control_failed,  ///< the controller had no answer

@@ -30,6 +30,11 @@ class Beliefs {
   /// Takes in an observation, if it tells about the present (`timeliness`). Its scan enters the map where the
   /// robot's pose then is known.
   void observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now);
+  /// Another map of what is known; what was sensed is kept.
+  void set_map(OccupancyMap map) {
+    map.take_over_sensed(map_);
+    map_ = std::move(map);
+  }
   /// Obstacles and peers as believed at a time [s], for the snapshots from now on.
   void refresh(double time);
 

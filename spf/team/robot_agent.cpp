@@ -136,6 +136,9 @@ void RobotAgent::set_goal(const Eigen::Vector2d& goal_world, std::optional<doubl
 void RobotAgent::clear_goal() {
   implementation_->goal.reset();
 }
+void RobotAgent::set_map(OccupancyMap map) {
+  implementation_->beliefs.set_map(std::move(map));
+}
 void RobotAgent::set_keep_candidates(bool keep) {
   implementation_->keep_candidates = keep;
 }

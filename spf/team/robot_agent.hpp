@@ -35,6 +35,8 @@ class RobotAgent {
   /// Throws std::invalid_argument when the goal is not finite.
   void set_goal(const Eigen::Vector2d& goal_world, std::optional<double> goal_heading = std::nullopt);
   void clear_goal();
+  /// Another static map than before: plans go on in it, and what was sensed is kept.
+  void set_map(OccupancyMap map);
   /// Keep every candidate in last_plan(), for display (allocates).
   void set_keep_candidates(bool keep);
   /// Peers (sorted) whose discs mask no scan returns, since they are not where they say: what is seen there

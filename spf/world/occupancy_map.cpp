@@ -1,5 +1,7 @@
 #include "spf/world/occupancy_map.hpp"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -104,6 +106,50 @@ void OccupancyMap::add_border(const Eigen::Vector2d& low, const Eigen::Vector2d&
   check_rectangle(low, high, "border");
   add_shape({0, 0}, {frame_.width - 1, frame_.height - 1},
             [&](const Eigen::Vector2d& node) { return -box_distance(node, low, high); });
+}
+
+void OccupancyMap::add_box(const Eigen::Vector2d& low, const Eigen::Vector2d& high,
+                           const Pose2& frame_world) {
+  check_rectangle(low, high, "box");
+  const Eigen::Rotation2Dd turn{frame_world.heading};
+  const Eigen::Vector2d centre = frame_world.position_world + turn * (0.5 * (low + high));
+  const Eigen::Vector2d half = turn.toRotationMatrix().cwiseAbs() * (0.5 * (high - low));
+  const Eigen::Vector2d reach = half + Eigen::Vector2d::Constant(max_distance_ + frame_.resolution);
+  const Eigen::Rotation2Dd back = turn.inverse();
+  add_shape(nearest_node(centre - reach), nearest_node(centre + reach), [&](const Eigen::Vector2d& node) {
+    return box_distance(back * (node - frame_world.position_world), low, high);
+  });
+}
+
+void OccupancyMap::add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high,
+                              const Pose2& frame_world) {
+  check_rectangle(low, high, "border");
+  const Eigen::Rotation2Dd back{-frame_world.heading};
+  add_shape({0, 0}, {frame_.width - 1, frame_.height - 1}, [&](const Eigen::Vector2d& node) {
+    return -box_distance(back * (node - frame_world.position_world), low, high);
+  });
+}
+
+void OccupancyMap::take_over_sensed(const OccupancyMap& before, const Pose2& moved) {
+  revision_ = std::max(revision_, before.revision_) + 1;
+  sensed_.reset();
+  if (!before.sensed_) return;
+  const bool same_grid = frame_.origin_world == before.frame_.origin_world &&
+                         frame_.resolution == before.frame_.resolution &&
+                         frame_.width == before.frame_.width && frame_.height == before.frame_.height &&
+                         max_distance_ == before.max_distance_;
+  if (same_grid && moved.heading == 0.0 && moved.position_world.isZero(0.0)) {
+    sensed_ = before.sensed_;
+    return;
+  }
+  const Eigen::Rotation2Dd turn{moved.heading};
+  std::vector<Eigen::Vector2d> points;
+  for (const Eigen::Vector2d& point : before.occupied_points()) {
+    const Eigen::Vector2d here = turn * point + moved.position_world;
+    if (!on_known_surface(here)) points.push_back(here);
+  }
+  sensed_.emplace(frame_, max_distance_);
+  sensed_->enter_surfaces(points);
 }
 
 template <class NodeValue>

@@ -40,6 +40,14 @@ class OccupancyMap {
   void add_disc(const Eigen::Vector2d& centre, double radius);
   /// The robot's world ends at these lines: outside counts as inside a wall.
   void add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+  // Likewise of rectangles in a frame that is turned and lies somewhere in the world.
+  void add_box(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Pose2& frame_world);
+  void add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Pose2& frame_world);
+
+  /// Takes over what was sensed in the map that this one replaces, in place of what was sensed in this one.
+  /// A place that is p there is turned by `moved` and then shifted by it: it is that frame's pose here. What
+  /// is known here already is left out. On the same grid, unmoved, nothing is lost; elsewhere free cells are.
+  void take_over_sensed(const OccupancyMap& before, const Pose2& moved = {});
 
   /// From here on a place is unknown until a beam has crossed it: there may be anything. Without this call
   /// the known shapes are all there is.

@@ -359,5 +359,62 @@ TEST(OccupancyMap, KeepsOutTheReturnsOfFlaggedBeamsAndKnowsWhatWasFree) {
   EXPECT_FALSE(map.seen_free({0.0, 2.0}));    // no beam went there
 }
 
+TEST(OccupancyMap, HoldsRectanglesThatAreTurned) {
+  RandomStream random{31};
+  for (int k = 0; k < 10; ++k) {
+    const Pose2 frame{draw_position(random, 2.0), random.uniform(-kPi, kPi)};
+    const Eigen::Rotation2Dd turn{frame.heading};
+    OccupancyMap map = map_of(6.0);
+    map.add_box({-0.5, -1.0}, {1.5, 0.3}, frame);
+    map.add_border({-3.0, -3.0}, {3.0, 3.0}, frame);
+    OccupancyMap straight = map_of(12.0, 0.02, 2.0);
+    straight.add_box({-0.5, -1.0}, {1.5, 0.3});
+    straight.add_border({-3.0, -3.0}, {3.0, 3.0});
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector2d place = draw_position(random, 3.0);
+      const Eigen::Vector2d here = frame.position_world + turn * place;
+      if (here.lpNorm<Eigen::Infinity>() > 5.9) continue;
+      // Interpolation beside a corner may read up to resolution^2 / (4 d) too much, inside a ridge likewise.
+      EXPECT_NEAR(map.distance(here), straight.distance(place), 0.06) << here.transpose();
+    }
+  }
+  OccupancyMap map = map_of(6.0);
+  EXPECT_THROW(map.add_box({1.0, 1.0}, {1.0, 2.0}, Pose2{}), std::invalid_argument);
+  EXPECT_THROW(map.add_border({1.0, 1.0}, {0.0, 2.0}, Pose2{}), std::invalid_argument);
+}
+
+TEST(OccupancyMap, TakesOverWhatWasSensed) {
+  OccupancyMap before = map_of(6.0);
+  for (int k = 0; k < 5; ++k) before.integrate(sweep_in_circle(Pose2{}, 3.0), Pose2{}, {});
+  ASSERT_GT(before.occupied_points().size(), 50u);
+  ASSERT_TRUE(before.seen_free({0.5, 0.0}));
+
+  OccupancyMap same = map_of(6.0);
+  same.add_box({4.0, 4.0}, {5.0, 5.0});
+  same.take_over_sensed(before);
+  EXPECT_GT(same.revision(), before.revision());
+  EXPECT_EQ(same.occupied_points().size(), before.occupied_points().size());
+  EXPECT_TRUE(same.seen_free({0.5, 0.0}));
+  EXPECT_LT(same.distance({4.5, 4.5}), 0.0);
+
+  const Pose2 moved{{1.0, -0.5}, 0.7};
+  OccupancyMap elsewhere = map_of(7.0, 0.08);
+  elsewhere.take_over_sensed(before, moved);
+  EXPECT_GT(elsewhere.occupied_points().size(), before.occupied_points().size() / 2);
+  for (const Eigen::Vector2d& point : elsewhere.occupied_points())
+    EXPECT_NEAR((point - moved.position_world).norm(), 3.0, 0.08);
+  expect_distances_of_points(elsewhere);
+
+  OccupancyMap known = map_of(6.0);  // the half of the circle that is a wall here
+  known.add_box({0.0, -5.0}, {5.0, 5.0});
+  known.add_box({-1.0, -5.0}, {0.0, -2.0});
+  known.take_over_sensed(before, {{0.01, 0.0}, 0.0});
+  for (const Eigen::Vector2d& point : known.occupied_points()) EXPECT_LT(point.x(), 0.0);
+
+  OccupancyMap nothing = map_of(6.0);
+  nothing.take_over_sensed(map_of(6.0), moved);
+  EXPECT_FALSE(nothing.sensed());
+}
+
 }  // namespace
 }  // namespace spf

@@ -77,6 +77,16 @@ bool SensedLayer::integrate(const Eigen::Vector2d& sensor_world, const std::vect
   return !vanished_.empty() || !appeared_.empty();
 }
 
+void SensedLayer::enter_surfaces(const std::vector<Eigen::Vector2d>& points_world) {
+  int log_odds = 0;
+  do {
+    begin_sweep();
+    for (const Eigen::Vector2d& point : points_world) enter_return(point);
+    for (const Hit& hit : appeared_) stamp(hit);
+    log_odds += hit_step_;
+  } while (log_odds < occupied_from_);
+}
+
 void SensedLayer::begin_sweep() {
   appeared_.clear();
   vanished_.clear();

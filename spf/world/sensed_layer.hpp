@@ -29,6 +29,8 @@ class SensedLayer {
   /// Enters a sweep; every cell is updated at most once, returns before crossings, so that a beam never
   /// clears what another beam of the same sweep has hit. True when any distance changed.
   bool integrate(const Eigen::Vector2d& sensor_world, const std::vector<SensedBeam>& beams);
+  /// Enters surfaces at these points [m], as sure as sweeps make them that just suffice.
+  void enter_surfaces(const std::vector<Eigen::Vector2d>& points_world);
 
   /// Distance from node (i, j) to the nearest hit point of an occupied cell [m], at most max_distance.
   [[nodiscard]] float distance(int i, int j) const {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/robot_map.hpp"
+#include "host/cell_map.hpp"
 #include "spf/math/angles.hpp"
 
 namespace spf_empc_ros {
@@ -206,12 +206,26 @@ Converted<spf::RangeScan> from_message(const sensor_msgs::LaserScan& scan) {
   result.angle_min = scan.angle_min;
   result.angle_increment = scan.angle_increment;
   result.max_range = scan.range_max;
-  result.ranges.reserve(count);
-  for (const float range : scan.ranges) {
-    const bool reading = range >= scan.range_min;  // and not NaN
-    result.ranges.push_back(reading ? range : std::numeric_limits<double>::quiet_NaN());
-  }
+  result.ranges.assign(scan.ranges.begin(), scan.ranges.end());
   return {std::move(result), {}};
+}
+
+Converted<spf::host::DriverScan> driver_scan(const sensor_msgs::LaserScan& scan,
+                                             const geometry_msgs::Pose& scanner_in_body) {
+  using Result = Converted<spf::host::DriverScan>;
+  Converted<spf::RangeScan> readings = from_message(scan);
+  if (!readings) return Result::refused(readings.refusal);
+  const geometry_msgs::Point& at = scanner_in_body.position;
+  const geometry_msgs::Quaternion& q = scanner_in_body.orientation;
+  const std::optional<spf::host::ScannerMount> mount =
+      spf::host::planar_mount({at.x, at.y, at.z}, Eigen::Quaterniond{q.w, q.x, q.y, q.z});
+  if (!mount) return Result::refused("its scanner is not mounted level: neither upright nor upside down");
+  spf::host::DriverScan driver;
+  driver.scan = std::move(*readings.value);
+  driver.min_range = scan.range_min;
+  driver.duration = static_cast<double>(scan.time_increment) * static_cast<double>(scan.ranges.size());
+  driver.mount = *mount;
+  return {std::move(driver), {}};
 }
 
 sensor_msgs::LaserScan to_message(const spf::RangeScan& scan) {
@@ -330,41 +344,14 @@ Converted<spf::host::SensedWorld> from_message(const spf_empc_msgs::Observation&
 Converted<spf::OccupancyMap> from_message(const nav_msgs::OccupancyGrid& grid, const std::string& frame,
                                           const spf::host::HostParameters& host) {
   using Result = Converted<spf::OccupancyMap>;
-  constexpr double kMostCells = 1 << 26;
-  constexpr int kOccupied = 50;
   std::string refusal;
   if (frames_differ(grid.header.frame_id, frame, refusal)) return Result::refused(refusal);
-  const std::size_t width = grid.info.width;
-  const std::size_t height = grid.info.height;
-  const double cell = grid.info.resolution;
-  if (width == 0 || height == 0 || static_cast<double>(width) * static_cast<double>(height) > kMostCells)
-    return Result::refused("it has no cells, or too many");
-  if (grid.data.size() != width * height)
-    return Result::refused(sizes("data", grid.data.size(), width * height));
-  if (!(std::isfinite(cell) && cell > 0.0)) return Result::refused("resolution is not above 0");
   const Converted<spf::Pose2> origin = from_message(grid.info.origin);
   if (!origin) return Result::refused("its origin: " + origin.refusal);
-  if (std::abs(origin->heading) > 1e-6) return Result::refused("it is turned in its frame");
-
-  const Eigen::Vector2d low = origin->position_world;
-  const Eigen::Vector2d high =
-      low + cell * Eigen::Vector2d{static_cast<double>(width), static_cast<double>(height)};
+  const spf::host::CellMap cells{*origin, grid.info.resolution, grid.info.width, grid.info.height,
+                                 &grid.data};
   try {
-    // Shapes between nodes keep their exact distance, so nodes may be farther apart than cells.
-    spf::OccupancyMap map = spf::host::empty_map(low, high, spf::host::MapGrain::of(host), cell);
-    map.add_border(low, high);
-    for (std::size_t j = 0; j < height; ++j) {
-      const auto row = grid.data.begin() + static_cast<std::ptrdiff_t>(j * width);
-      for (std::size_t i = 0; i < width; ++i) {
-        if (row[static_cast<std::ptrdiff_t>(i)] < kOccupied) continue;
-        const std::size_t first = i;
-        while (i < width && row[static_cast<std::ptrdiff_t>(i)] >= kOccupied) ++i;
-        const Eigen::Vector2d corner{static_cast<double>(first), static_cast<double>(j)};
-        const Eigen::Vector2d other{static_cast<double>(i), static_cast<double>(j + 1)};
-        map.add_box(low + cell * corner, low + cell * other);
-      }
-    }
-    return {std::move(map), {}};
+    return {spf::host::map_of_cells(cells, host), {}};
   } catch (const std::exception& error) {
     return Result::refused(error.what());
   }

@@ -9,6 +9,7 @@
 namespace spf_empc_ros {
 namespace {
 
+constexpr double kReportPeriod = 0.1;  // [s] what changes is said so soon
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 
 }  // namespace
@@ -18,27 +19,34 @@ PerceptionNode::PerceptionNode(ros::NodeHandle node, const RobotConfig& config, 
       config_{config},
       clock_{start},
       host_{config.agent, config.file.host},
-      diagnostics_{node_, config.robot_id, "perception"},
-      base_frame_{"robot" + std::to_string(config.robot_id) + "/base_link"} {
+      frames_{config.agent.team.stale_time},
+      diagnostics_{node_, config_, "perception", clock_} {
   observation_ = node_.advertise<spf_empc_msgs::Observation>("observation", 10);
   subscribers_ = {node_.subscribe("scan", 2, &PerceptionNode::on_scan, this, kNoDelay),
-                  node_.subscribe("obstacles", 5, &PerceptionNode::on_obstacles, this, kNoDelay)};
-  timer_ = node_.createTimer(ros::Duration{1.0}, [this](const ros::TimerEvent&) { report(); });
+                  node_.subscribe("obstacles", 5, &PerceptionNode::on_obstacles, this, kNoDelay),
+                  node_.subscribe("wheel_speeds", 5, &PerceptionNode::on_wheels, this, kNoDelay)};
+  timer_ = node_.createTimer(ros::Duration{kReportPeriod}, [this](const ros::TimerEvent&) { report(); });
 }
 
-void PerceptionNode::refuse(const char* what, const std::string& why) {
-  ++refused_;
-  last_refusal_ = std::string{what} + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "%s", last_refusal_.c_str());
+void PerceptionNode::refuse(const char* what, const std::string& why, bool harmless) {
+  refusals_.note(what, why, now(), harmless);
+  ROS_WARN_THROTTLE(1.0, "%s", refusals_.last().c_str());
 }
 
 void PerceptionNode::on_scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
-  const Converted<spf::RangeScan> ranges = from_message(*scan);
-  if (!ranges) return refuse("scan", ranges.refusal);
-  check_sight(ranges->max_range);
-  const Converted<spf::Pose2> sensor = frames_.place(scan->header.frame_id, base_frame_, ros::Time{});
-  if (!sensor) return refuse("scan", sensor.refusal);
-  publish(host_.add_scan(clock_.seconds(scan->header.stamp), *ranges, *sensor, now()), "scan");
+  const Converted<geometry_msgs::Pose> scanner =
+      frames_.place_in_space(scan->header.frame_id, config_.base_frame, scan->header.stamp);
+  if (!scanner) return refuse("scan", scanner.refusal);
+  Converted<spf::host::DriverScan> driver = driver_scan(*scan, *scanner);
+  if (!driver) return refuse("scan", driver.refusal);
+  check_sight(driver->scan.max_range);
+  publish(host_.add_scan(clock_.seconds(scan->header.stamp), std::move(*driver.value), now()), "scan");
+}
+
+void PerceptionNode::on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels) {
+  const Converted<Eigen::Vector3d> speeds = from_message(*wheels);
+  if (!speeds) return refuse("wheel_speeds", speeds.refusal);
+  host_.applied(clock_.seconds(wheels->header.stamp), *speeds);
 }
 
 /// What the file of the robot does not say: how far its scanner reaches. Looked at once.
@@ -62,23 +70,23 @@ void PerceptionNode::on_obstacles(const spf_empc_msgs::ObstacleTracks::ConstPtr&
 }
 
 void PerceptionNode::publish(const std::optional<spf::host::SensedWorld>& sensed, const char* what) {
-  if (!sensed) return refuse(what, to_string(host_.last_verdict()));
+  if (!sensed)
+    return refuse(what, host_.last_refusal(), host_.last_verdict() == spf::host::ObservationVerdict::late);
   observation_.publish(to_message(*sensed, clock_, config_.frame));
 }
 
 void PerceptionNode::report() {
   const ros::Time time = ros::Time::now();
   const double seconds = clock_.seconds(time);
-  const double stale = config_.agent.team.stale_time;
-  const spf::host::HostParameters& relied = config_.file.host;
-  std::string message = "sensing";
-  if (relied.relies_on_obstacles && host_.detections_age(seconds) > stale) message = "no report of obstacles";
-  if (relied.relies_on_scan && host_.scan_age(seconds) > stale) message = "no scan";
+  spf::host::Health health = host_.health(seconds);
+  refusals_.add_to(health, seconds);
+  if (!diagnostics_.due(time, health)) return;
   Diagnostics::Values values{{"scan age", age_text(host_.scan_age(seconds))},
+                             {"beams without a reading", std::to_string(host_.blind_share())},
                              {"obstacles age", age_text(host_.detections_age(seconds))},
-                             {"refused", std::to_string(refused_)}};
-  if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
-  diagnostics_.report(time, message == "sensing" ? Health::ok : Health::missing, message, values);
+                             {"refused", std::to_string(refusals_.count())}};
+  if (!refusals_.last().empty()) values.emplace_back("last refusal", refusals_.last());
+  diagnostics_.report(time, health, values);
 }
 
 }  // namespace spf_empc_ros

@@ -5,7 +5,9 @@
 #include <spf_empc_msgs/RobotStatus.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "spf_empc_ros/conversions.hpp"
 #include "spf_empc_ros/display.hpp"
@@ -19,6 +21,12 @@ constexpr double kGridPeriod = 1.0;     // [s]
 constexpr double kStatusPeriod = 0.5;   // [s] while there is no agent
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 
+bool same_cells(const nav_msgs::OccupancyGrid& one, const nav_msgs::OccupancyGrid& other) {
+  return one.header.frame_id == other.header.frame_id && one.info.resolution == other.info.resolution &&
+         one.info.width == other.info.width && one.info.height == other.info.height &&
+         one.info.origin == other.info.origin && one.data == other.data;
+}
+
 /// Numbers messages so that a later process begins higher: hundredths of a second of ROS time.
 std::uint32_t first_sequence(const ros::Time& start) {
   return start.sec * 100U + start.nsec / 10000000U;
@@ -31,7 +39,8 @@ PlannerNode::PlannerNode(ros::NodeHandle node, const RobotConfig& config, const 
       config_{config},
       clock_{start},
       host_{config.robot_id, config.agent, config.file.host, first_sequence(start)},
-      diagnostics_{node_, config.robot_id, "planner"},
+      frames_{config.agent.team.stale_time},
+      diagnostics_{node_, config_, "planner", clock_},
       switch_{node_, [this](bool paused, bool stop) {
                 host_.planner().set_switches({stop, paused});
               }} {
@@ -53,23 +62,24 @@ PlannerNode::PlannerNode(ros::NodeHandle node, const RobotConfig& config, const 
   timer_ = node_.createTimer(ros::Duration{kStepPeriod}, [this](const ros::TimerEvent&) { step(); });
 }
 
-void PlannerNode::refuse(const char* what, const std::string& why) {
-  last_refusal_ = std::string{what} + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "%s", last_refusal_.c_str());
+void PlannerNode::refuse(const char* what, const std::string& why, bool harmless) {
+  refusals_.note(what, why, now(), harmless);
+  ROS_WARN_THROTTLE(1.0, "%s", refusals_.last().c_str());
 }
 
-// ---- in
-// -----------------------------------------------------------------------------------------------------
+// ---- in ---------------------------------------------------------------------------------------------------
 
 void PlannerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
-  const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
-  if (!pose) {
+  const Converted<PlacedPose> placed =
+      frames_.pose_of_any_age(odometry->header, odometry->pose.pose, config_.frame);
+  if (!placed) {
     host_.localiser().count_refused_pose();
-    return refuse("odom", pose.refusal);
+    return refuse("odom", placed.refusal);
   }
-  const spf::host::PoseVerdict verdict =
-      host_.add_pose({clock_.seconds(odometry->header.stamp), *pose}, now());
-  if (!believed(verdict)) refuse("odom", to_string(verdict));
+  const double time = clock_.seconds(odometry->header.stamp);
+  const spf::host::PoseVerdict verdict = host_.add_pose({time, placed->pose}, now());
+  if (!believed(verdict)) return refuse("odom", to_string(verdict), verdict == spf::host::PoseVerdict::late);
+  if (!placed->by_itself) host_.localiser().placed_by_transform_of(time - placed->age);
 }
 
 void PlannerNode::on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels) {
@@ -89,18 +99,27 @@ void PlannerNode::on_observation(const spf_empc_msgs::Observation::ConstPtr& obs
     return refuse("observation", sensed.refusal);
   }
   const spf::host::ObservationVerdict verdict = host_.add_observation(*sensed, now());
-  if (verdict != spf::host::ObservationVerdict::accepted) refuse("observation", to_string(verdict));
+  if (verdict != spf::host::ObservationVerdict::accepted)
+    refuse("observation", to_string(verdict), verdict == spf::host::ObservationVerdict::late);
 }
 
-void PlannerNode::on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
-  if (trajectory->robot_id == static_cast<std::uint32_t>(config_.robot_id)) return;
-  const Converted<StampedTrajectory> received = from_message(*trajectory, clock_, config_.frame);
+/// What is wrong with a peer stands in the diagnostics under its number.
+void PlannerNode::on_peer(const ros::MessageEvent<spf_empc_msgs::Trajectory const>& event) {
+  using spf::host::PeerFault;
+  const spf_empc_msgs::Trajectory& message = *event.getConstMessage();
+  const int number = static_cast<int>(std::min<std::uint32_t>(message.robot_id, INT32_MAX));
+  const Converted<StampedTrajectory> received = from_message(message, clock_, config_.frame);
   if (!received) {
-    host_.planner().count_malformed_message();
-    return refuse("/swarm/trajectories", received.refusal);
+    const bool elsewhere = plain_frame(message.header.frame_id) != config_.frame;
+    host_.planner().refuse_message(number, elsewhere ? PeerFault::frame : PeerFault::malformed,
+                                   received.refusal, now());
+    return refuse("/swarm/trajectories", received.refusal, true);
   }
-  if (host_.add_message(received->message, now()) == spf::MessageVerdict::malformed)
-    refuse("/swarm/trajectories", "out of range");
+  const spf::MessageVerdict verdict = host_.add_message(received->message, now());
+  if (verdict == spf::MessageVerdict::malformed) refuse("/swarm/trajectories", "out of range", true);
+  if (number == config_.robot_id && verdict != spf::MessageVerdict::own)
+    host_.planner().complain(number, PeerFault::same_number,
+                             "another robot has this number: " + event.getPublisherName(), now());
 }
 
 void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
@@ -116,11 +135,13 @@ void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
 
 void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
   if (!config_.waits_for_map) return;
+  if (shown_grid_.given && same_cells(*shown_grid_.given, *map)) return;  // told again
   Converted<spf::OccupancyMap> known = from_message(*map, config_.frame, config_.file.host);
   if (!known) {
     host_.planner().count_refused_input();
     return refuse("/map", known.refusal);
   }
+  shown_grid_.given = map;
   shown_grid_.revision.reset();
   host_.planner().set_map(std::move(*known.value));
 }
@@ -129,8 +150,7 @@ void PlannerNode::on_cancel(const std_msgs::Empty::ConstPtr&) {
   host_.planner().cancel();
 }
 
-// ---- out
-// ----------------------------------------------------------------------------------------------------
+// ---- out --------------------------------------------------------------------------------------------------
 
 void PlannerNode::step() {
   const ros::WallTime begun = ros::WallTime::now();
@@ -212,26 +232,27 @@ void PlannerNode::publish_grid(const ros::Time& now) {
 }
 
 void PlannerNode::report(const ros::Time& now) {
-  const spf::host::PlannerStatus status = host_.planner().status();
-  if (!diagnostics_.due(now, status.reason)) return;
-  Health health = Health::ok;
-  if (status.state == spf::PeerState::stopped) health = Health::standing;
-  if (!host_.planner().fault().empty()) health = Health::missing;
-  if (status.state == spf::PeerState::arrived || !host_.planner().goal())
-    health = host_.planner().fault().empty() ? Health::ok : health;
+  const double seconds = clock_.seconds(now);
+  const spf::host::PlannerHost& planner = host_.planner();
+  spf::host::Health health = planner.health(seconds);
+  refusals_.add_to(health, seconds);
+  if (!diagnostics_.due(now, health)) return;
+  const spf::host::Localiser& localiser = host_.localiser();
   Diagnostics::Values values{
-      {"plans", std::to_string(host_.planner().counts().plans)},
-      {"inputs refused", std::to_string(host_.planner().counts().inputs_refused)},
-      {"poses refused", std::to_string(host_.localiser().poses_refused())},
-      {"command age", age_text(host_.localiser().command_age(clock_.seconds(now)))},
-      {"messages malformed", std::to_string(host_.planner().counts().messages_malformed)},
-      {"messages of too many peers", std::to_string(host_.planner().counts().messages_crowded)},
+      {"plans", std::to_string(planner.counts().plans)},
+      {"inputs refused", std::to_string(planner.counts().inputs_refused)},
+      {"poses refused", std::to_string(localiser.poses_refused())},
+      {"localisation age", age_text(localiser.localisation_age(seconds))},
+      {"command age", age_text(localiser.command_age(seconds))},
+      {"messages malformed", std::to_string(planner.counts().messages_malformed)},
+      {"messages of too many peers", std::to_string(planner.counts().messages_crowded)},
       {"clock jumps", std::to_string(host_.clock_jumps())}};
-  if (const spf::RobotAgent* agent = host_.planner().agent())
-    values.emplace_back("tracks", std::to_string(agent->tracks().size()));
-  if (status.culprit >= 0) values.emplace_back("culprit", std::to_string(status.culprit));
-  if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
-  diagnostics_.report(now, health, status.reason, values);
+  if (planner.agent() != nullptr)
+    values.emplace_back("tracks", std::to_string(planner.agent()->tracks().size()));
+  const int culprit = planner.status().culprit;
+  if (culprit >= 0) values.emplace_back("culprit", std::to_string(culprit));
+  if (!refusals_.last().empty()) values.emplace_back("last refusal", refusals_.last());
+  diagnostics_.report(now, health, values);
 }
 
 }  // namespace spf_empc_ros

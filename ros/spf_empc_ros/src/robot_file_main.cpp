@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
     const spf::sim::Scenario trial = spf::make_trial(config, 0);
     file.agent = spf::sim::agent_parameters_for(trial, spf::agent_parameters(config));
     const spf::host::HostParameters derived = spf::sim::host_parameters_for(trial, file.agent);
+    const spf::sim::DetectionQuality detections = trial.simulation.sensing.detections;
+    file.host.relies_on_obstacles = detections != spf::sim::DetectionQuality::scan;
     file.host.map_resolution = derived.map_resolution;
     file.host.map_reach = derived.map_reach;
     file.host.plan_silence = derived.plan_silence;

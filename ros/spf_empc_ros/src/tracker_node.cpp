@@ -38,12 +38,11 @@ TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const 
       config_{config},
       clock_{start},
       host_{config.robot_id, config.agent, config.file.host},
-      diagnostics_{node_, config.robot_id, "tracker"},
-      switch_{node_,
-              [this](bool paused, bool stop) {
+      frames_{config.agent.team.stale_time},
+      diagnostics_{node_, config_, "tracker", clock_},
+      switch_{node_, [this](bool paused, bool stop) {
                 host_.tracker().set_switches({stop, paused});
-              }},
-      base_frame_{"robot" + std::to_string(config.robot_id) + "/base_link"} {
+              }} {
   cmd_vel_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   wheel_speeds_ = node_.advertise<spf_empc_msgs::WheelSpeeds>("wheel_speeds", 1);
   estimate_ = node_.advertise<nav_msgs::Odometry>("estimate", 5);
@@ -61,20 +60,22 @@ TrackerNode::~TrackerNode() {
   cmd_vel_.publish(geometry_msgs::Twist{});
 }
 
-void TrackerNode::refuse(const char* what, const std::string& why) {
-  last_refusal_ = std::string{what} + ": " + why;
-  ROS_WARN_THROTTLE(1.0, "%s", last_refusal_.c_str());
+void TrackerNode::refuse(const char* what, const std::string& why, bool harmless) {
+  refusals_.note(what, why, now(), harmless);
+  ROS_WARN_THROTTLE(1.0, "%s", refusals_.last().c_str());
 }
 
 void TrackerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
-  const Converted<spf::Pose2> pose = frames_.pose(odometry->header, odometry->pose.pose, config_.frame);
-  if (!pose) {
+  const Converted<PlacedPose> placed =
+      frames_.pose_of_any_age(odometry->header, odometry->pose.pose, config_.frame);
+  if (!placed) {
     host_.localiser().count_refused_pose();
-    return refuse("odom", pose.refusal);
+    return refuse("odom", placed.refusal);
   }
-  const spf::host::PoseVerdict verdict =
-      host_.add_pose({clock_.seconds(odometry->header.stamp), *pose}, now());
-  if (!believed(verdict)) refuse("odom", to_string(verdict));
+  const double time = clock_.seconds(odometry->header.stamp);
+  const spf::host::PoseVerdict verdict = host_.add_pose({time, placed->pose}, now());
+  if (!believed(verdict)) return refuse("odom", to_string(verdict), verdict == spf::host::PoseVerdict::late);
+  if (!placed->by_itself) host_.localiser().placed_by_transform_of(time - placed->age);
 }
 
 void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory) {
@@ -84,17 +85,21 @@ void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory)
     return refuse("trajectory", received.refusal);
   }
   const spf::host::PlanVerdict verdict = host_.add_plan(received->message, now());
-  if (verdict != spf::host::PlanVerdict::accepted) return refuse("trajectory", to_string(verdict));
+  if (verdict != spf::host::PlanVerdict::accepted)
+    return refuse("trajectory", to_string(verdict), verdict == spf::host::PlanVerdict::late);
   observed_ = received->observed;
 }
 
 /// As it comes from the driver, for the guard: by no other node.
 void TrackerNode::on_scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
-  const Converted<spf::RangeScan> ranges = from_message(*scan);
-  if (!ranges) return refuse("scan", ranges.refusal);
-  const Converted<spf::Pose2> sensor = frames_.place(scan->header.frame_id, base_frame_, ros::Time{});
-  if (!sensor) return refuse("scan", sensor.refusal);
-  if (!host_.add_scan(clock_.seconds(scan->header.stamp), *ranges, *sensor, now()))
+  const Converted<geometry_msgs::Pose> scanner =
+      frames_.place_in_space(scan->header.frame_id, config_.base_frame, scan->header.stamp);
+  if (!scanner) return refuse("scan", scanner.refusal);
+  Converted<spf::host::DriverScan> driver = driver_scan(*scan, *scanner);
+  if (!driver) return refuse("scan", driver.refusal);
+  spf::host::DriverScan& plain = *driver.value;
+  make_plain(plain, config_.file.host.no_return);
+  if (!host_.add_scan(clock_.seconds(scan->header.stamp), plain.scan, plain.mount.in_body, now()))
     refuse("scan", "malformed, half blind, or not of the present");
 }
 
@@ -106,7 +111,7 @@ void TrackerNode::step() {
   publish_command(time, command);
   publish_estimate(time, command);
   publish_status(time, command, control_us);
-  report(time, command);
+  report(time);
 }
 
 void TrackerNode::publish_command(const ros::Time& now, const spf::host::TrackerCommand& command) {
@@ -117,7 +122,7 @@ void TrackerNode::publish_command(const ros::Time& now, const spf::host::Tracker
   cmd_vel_.publish(twist);
   spf_empc_msgs::WheelSpeeds wheels = to_message(command.wheel_speeds, host_.tracker().max_wheel_speed());
   wheels.header.stamp = now;
-  wheels.header.frame_id = base_frame_;
+  wheels.header.frame_id = config_.base_frame;
   wheels.guard = static_cast<std::uint8_t>(command.guard.action);
   wheel_speeds_.publish(wheels);
 }
@@ -127,7 +132,7 @@ void TrackerNode::publish_estimate(const ros::Time& now, const spf::host::Tracke
   nav_msgs::Odometry message;
   message.header.stamp = now;
   message.header.frame_id = config_.frame;
-  message.child_frame_id = base_frame_;
+  message.child_frame_id = config_.base_frame;
   message.pose.pose = to_message(command.estimate.pose_world);
   message.pose.covariance[0] = message.pose.covariance[7] = command.estimate.position_variance;
   message.pose.covariance[35] = command.estimate.heading_variance;
@@ -163,17 +168,13 @@ void TrackerNode::publish_status(const ros::Time& now, const spf::host::TrackerC
   status_.publish(message);
 }
 
-void TrackerNode::report(const ros::Time& now, const spf::host::TrackerCommand& command) {
-  const std::string mode = mode_of(command);
-  if (!diagnostics_.due(now, mode)) return;
-  using spf::StopCause;
-  Health health = Health::missing;
-  if (command.stop == StopCause::none) health = Health::ok;
-  if (command.stop == StopCause::paused || command.stop == StopCause::far_from_plan ||
-      command.stop == StopCause::in_the_way)
-    health = Health::standing;
+void TrackerNode::report(const ros::Time& now) {
   const double seconds = clock_.seconds(now);
+  spf::host::Health health = host_.tracker().health();
+  refusals_.add_to(health, seconds);
+  if (!diagnostics_.due(now, health)) return;
   Diagnostics::Values values{{"pose age", age_text(host_.localiser().pose_age(seconds))},
+                             {"localisation age", age_text(host_.localiser().localisation_age(seconds))},
                              {"plan age", age_text(host_.tracker().plan_age(seconds))},
                              {"poses refused", std::to_string(host_.localiser().poses_refused())},
                              {"plans refused", std::to_string(host_.tracker().plans_refused())},
@@ -181,8 +182,8 @@ void TrackerNode::report(const ros::Time& now, const spf::host::TrackerCommand& 
                              {"guard", guard_text(host_.tracker().guard(), seconds)}};
   if (const spf::host::ScanGuard* guard = host_.tracker().guard())
     values.emplace_back("guard stops", std::to_string(guard->counts().stops));
-  if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
-  diagnostics_.report(now, health, mode, values);
+  if (!refusals_.last().empty()) values.emplace_back("last refusal", refusals_.last());
+  diagnostics_.report(now, health, values);
 }
 
 }  // namespace spf_empc_ros

@@ -147,8 +147,6 @@ TEST(Conversions, ScanThereAndBackAndRefused) {
   ASSERT_EQ(back->ranges.size(), scan.ranges.size());
   for (std::size_t i = 0; i < scan.ranges.size(); ++i)
     EXPECT_EQ(back->ranges[i], static_cast<float>(scan.ranges[i]));
-  message.range_min = 1.0F;  // nearer readings are none: the robot's own body
-  EXPECT_TRUE(std::isnan(from_message(message)->ranges[1]));
   message.ranges.resize(250);
   EXPECT_EQ(from_message(message).refusal, "ranges has 250 entries, its angles give 301");
   message.ranges.clear();
@@ -159,6 +157,31 @@ TEST(Conversions, ScanThereAndBackAndRefused) {
   message = to_message(scan);
   message.range_max = NAN;
   EXPECT_EQ(from_message(message).refusal, "range_min or range_max is not a range");
+}
+
+TEST(Conversions, AScanOfADriverKeepsItsDurationAndItsMount) {
+  sensor_msgs::LaserScan message;
+  message.angle_min = -1.0F;
+  message.angle_increment = 0.5F;
+  message.angle_max = 1.0F;
+  message.range_min = 0.1F;
+  message.range_max = 8.0F;
+  message.time_increment = 0.01F;
+  message.ranges = {1.0F, 0.0F, NAN, INFINITY, 0.05F};
+  geometry_msgs::Pose mount = to_message(spf::Pose2{{-0.2, 0.1}, 0.0});
+  mount.orientation.w = 0.0;
+  mount.orientation.x = 1.0;  // roll pi
+  const auto driver = driver_scan(message, mount);
+  ASSERT_TRUE(driver) << driver.refusal;
+  EXPECT_TRUE(driver->mount.upside_down);
+  EXPECT_NEAR(driver->mount.in_body.position_world.x(), -0.2, 1e-12);
+  EXPECT_NEAR(driver->duration, 0.05, 1e-6);
+  EXPECT_NEAR(driver->min_range, 0.1, 1e-6);
+  EXPECT_EQ(driver->scan.ranges[1], 0.0);  // as they come
+  EXPECT_TRUE(std::isnan(driver->scan.ranges[2]));
+  mount.orientation.x = mount.orientation.w = std::sqrt(0.5);  // on its side
+  EXPECT_EQ(driver_scan(message, mount).refusal,
+            "its scanner is not mounted level: neither upright nor upside down");
 }
 
 TEST(Conversions, ObstaclesAreMovedIntoTheFleetsFrame) {
@@ -229,6 +252,11 @@ TEST(Conversions, MapThereAndBackAndRefused) {
   EXPECT_NEAR(map->distance({4.5, 0.0}), 0.5, 0.01);  // the world's edge
   const nav_msgs::OccupancyGrid shown = to_message(*map, "map");
   EXPECT_EQ(shown.data.size(), shown.info.width * shown.info.height);
+  // The same, turned by a quarter in its frame.
+  grid.info.origin = to_message(spf::Pose2{{2.5, -5.0}, 0.5 * spf::kPi});
+  const auto turned = from_message(grid, "map", {});
+  ASSERT_TRUE(turned) << turned.refusal;
+  EXPECT_NEAR(turned->distance({-0.05, 0.5}), 1.0, 0.05);
   grid.data.pop_back();
   EXPECT_EQ(from_message(grid, "map", {}).refusal, "data has 4999 entries, not 5000");
   grid.data.push_back(0);

@@ -11,11 +11,12 @@ import unittest
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped, Twist
+from geometry_msgs.msg import PoseStamped, TransformStamped, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from spf_empc_msgs.msg import ObstacleTracks, RobotStatus, TrackerStatus, WheelSpeeds
+from tf2_msgs.msg import TFMessage
 
 HALF_LENGTH, HALF_WIDTH, CELL = 45.0, 4.0, 0.2  # [m] of the hall
 BASE_TIMEOUT = 0.3  # [s] after which a base stands without commands, as real ones do
@@ -33,7 +34,9 @@ class Robot:
     def __init__(self, number, x=0.0, y=0.0):
         self.number = number
         self.x, self.y, self.heading = x, y, 0.0
-        self.odom_on = self.scan_on = self.obstacles_on = True
+        self.odom_on = self.scan_on = self.obstacles_on = self.localised = True
+        self.odom_frame, self.base_frame = "map", "robot%d/base_link" % number
+        self.map_to_odom = (0.0, 0.0, 0.0)  # x, y, heading of the odometry's frame, told by tf unless it is the map's
         self.distort = lambda x, y: (x, y)
         self.last = {}  # stamp of the last message of each sensor
         self.command, self.command_time = Twist(), 0.0
@@ -44,6 +47,7 @@ class Robot:
         self.odom = rospy.Publisher(space + "odom", Odometry, queue_size=10, tcp_nodelay=True)
         self.scan = rospy.Publisher(space + "scan", LaserScan, queue_size=2, tcp_nodelay=True)
         self.obstacles = rospy.Publisher(space + "obstacles", ObstacleTracks, queue_size=2, tcp_nodelay=True)
+        self.transforms = rospy.Publisher("/tf", TFMessage, queue_size=10, tcp_nodelay=True)
         self.goal = rospy.Publisher(space + "goal", PoseStamped, queue_size=1, latch=True)
         rospy.Subscriber(space + "cmd_vel", Twist, self.on_command, tcp_nodelay=True)
         rospy.Subscriber(space + "wheel_speeds", WheelSpeeds, self.on_wheels, tcp_nodelay=True)
@@ -100,21 +104,41 @@ class Robot:
     def sense(self, stamp, tick):
         if self.odom_on:
             message = Odometry()
-            message.header.stamp, message.header.frame_id = stamp, "map"
-            message.child_frame_id = "robot%d/base_link" % self.number
-            message.pose.pose.position.x, message.pose.pose.position.y = self.distort(self.x, self.y)
-            message.pose.pose.orientation.z = math.sin(0.5 * self.heading)
-            message.pose.pose.orientation.w = math.cos(0.5 * self.heading)
+            message.header.stamp, message.header.frame_id = stamp, self.odom_frame
+            message.child_frame_id = self.base_frame
+            x, y = self.distort(self.x, self.y)
+            left, up, turn = self.map_to_odom
+            c, s = math.cos(turn), math.sin(turn)
+            message.pose.pose.position.x = c * (x - left) + s * (y - up)
+            message.pose.pose.position.y = -s * (x - left) + c * (y - up)
+            message.pose.pose.orientation.z = math.sin(0.5 * (self.heading - turn))
+            message.pose.pose.orientation.w = math.cos(0.5 * (self.heading - turn))
             self.odom.publish(message)
             self.last["odom"] = stamp.to_sec()
+        if tick % 5 == 0 and self.localised and self.odom_frame != "map":
+            self.tell_place(stamp)
         if tick % 10 == 0 and self.scan_on:
-            self.scan.publish(free_scan(stamp, self.number))
+            scan = free_scan(stamp, self.number)
+            scan.header.frame_id = self.base_frame
+            self.scan.publish(scan)
             self.last["scan"] = stamp.to_sec()
         if tick % 10 == 5 and self.obstacles_on:
             message = ObstacleTracks()
             message.header.stamp, message.header.frame_id = stamp, "map"
             self.obstacles.publish(message)
             self.last["obstacles"] = stamp.to_sec()
+
+
+    def tell_place(self, stamp):
+        """What a localisation tells: where the odometry's frame is in the map."""
+        message = TransformStamped()
+        message.header.stamp, message.header.frame_id = stamp, "map"
+        message.child_frame_id = self.odom_frame
+        x, y, turn = self.map_to_odom
+        message.transform.translation.x, message.transform.translation.y = x, y
+        message.transform.rotation.z, message.transform.rotation.w = math.sin(0.5 * turn), math.cos(0.5 * turn)
+        self.transforms.publish(TFMessage(transforms=[message]))
+        self.last["localisation"] = stamp.to_sec()
 
 
 def free_scan(stamp, number, beams=90):
@@ -134,6 +158,7 @@ class World:
         self.simulated_time = 1000.0 if simulated else None
         self.least_distance = float("inf")
         self.diagnostics = set()
+        self.health = {}  # (level, message) of the newest line of each name
         self.ended = False
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
         self.clock = rospy.Publisher("/clock", Clock, queue_size=10) if simulated else None
@@ -145,6 +170,7 @@ class World:
     def on_diagnostics(self, message):
         for status in message.status:
             self.diagnostics.add((status.name, status.message))
+            self.health[status.name] = (status.level, status.message)
 
     def stamp(self):
         return rospy.Time.from_sec(self.simulated_time) if self.clock else rospy.Time.from_sec(time.time())

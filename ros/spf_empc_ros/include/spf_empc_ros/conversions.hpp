@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "host/driver_scan.hpp"
 #include "host/planner_host.hpp"
 #include "spf/world/obstacle_track.hpp"
 #include "spf/world/occupancy_map.hpp"
@@ -59,7 +60,11 @@ struct StampedTrajectory {
 [[nodiscard]] geometry_msgs::Pose to_message(const spf::Pose2& pose);
 [[nodiscard]] spf::Pose2 compose(const spf::Pose2& outer, const spf::Pose2& inner);
 
+/// Readings as they come.
 [[nodiscard]] Converted<spf::RangeScan> from_message(const sensor_msgs::LaserScan& scan);
+/// With the place of its frame in the body's.
+[[nodiscard]] Converted<spf::host::DriverScan> driver_scan(const sensor_msgs::LaserScan& scan,
+                                                           const geometry_msgs::Pose& scanner_in_body);
 [[nodiscard]] sensor_msgs::LaserScan to_message(const spf::RangeScan& scan);
 
 [[nodiscard]] Converted<std::vector<spf::Detection>> from_message(const spf_empc_msgs::ObstacleTracks& tracks,

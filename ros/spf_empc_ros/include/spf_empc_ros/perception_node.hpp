@@ -8,7 +8,9 @@
 #include <ros/timer.h>
 #include <sensor_msgs/LaserScan.h>
 #include <spf_empc_msgs/ObstacleTracks.h>
+#include <spf_empc_msgs/WheelSpeeds.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +32,8 @@ class PerceptionNode {
   void on_obstacles(const spf_empc_msgs::ObstacleTracks::ConstPtr& tracks);
   void publish(const std::optional<spf::host::SensedWorld>& sensed, const char* what);
   void report();
-  void refuse(const char* what, const std::string& why);
+  void on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels);
+  void refuse(const char* what, const std::string& why, bool harmless = false);
   void check_sight(double range);
   [[nodiscard]] double now() const { return clock_.seconds(ros::Time::now()); }
 
@@ -43,9 +46,7 @@ class PerceptionNode {
   std::vector<ros::Subscriber> subscribers_;
   ros::Publisher observation_;
   ros::Timer timer_;
-  std::string base_frame_;
-  std::string last_refusal_;
-  std::uint32_t refused_ = 0;
+  spf::host::RefusalLog refusals_;
   bool sight_checked_ = false;
 };
 

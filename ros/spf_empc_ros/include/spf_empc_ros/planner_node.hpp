@@ -5,6 +5,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
@@ -37,7 +38,7 @@ class PlannerNode {
   void on_pose(const nav_msgs::Odometry::ConstPtr& odometry);
   void on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels);
   void on_observation(const spf_empc_msgs::Observation::ConstPtr& observation);
-  void on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory);
+  void on_peer(const ros::MessageEvent<spf_empc_msgs::Trajectory const>& event);
   void on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal);
   void on_map(const nav_msgs::OccupancyGrid::ConstPtr& map);
   void on_cancel(const std_msgs::Empty::ConstPtr& cancel);
@@ -47,7 +48,7 @@ class PlannerNode {
   void publish_pictures(double now);
   void publish_grid(const ros::Time& now);
   void report(const ros::Time& now);
-  void refuse(const char* what, const std::string& why);
+  void refuse(const char* what, const std::string& why, bool harmless = false);
   [[nodiscard]] double now() const { return clock_.seconds(ros::Time::now()); }
 
   ros::NodeHandle node_;
@@ -65,8 +66,9 @@ class PlannerNode {
   struct {
     double next = 0.0;                      // [s] when it may be shown again
     std::optional<std::uint64_t> revision;  // of the map that was
+    nav_msgs::OccupancyGrid::ConstPtr given;
   } shown_grid_;
-  std::string last_refusal_;
+  spf::host::RefusalLog refusals_;
 };
 
 }  // namespace spf_empc_ros

@@ -1,4 +1,4 @@
-// What a node is told when it starts: the private parameters robot_id, frame, config and map.
+// What a node is told when it starts: the private parameters robot_id, frame, base_frame, config and map.
 #pragma once
 
 #include <ros/node_handle.h>
@@ -12,6 +12,7 @@ namespace spf_empc_ros {
 struct RobotConfig {
   int robot_id = 0;
   std::string frame = "map";  ///< the fleet's
+  std::string base_frame;     ///< the robot's own: x forward, y left, around its centre
   bool waits_for_map = true;  ///< `map: wait`; `map: none` starts with what is sensed
   spf::RobotFile file;
   spf::AgentParameters agent;  ///< of the file

@@ -41,8 +41,8 @@ class TrackerNode {
   void publish_command(const ros::Time& now, const spf::host::TrackerCommand& command);
   void publish_estimate(const ros::Time& now, const spf::host::TrackerCommand& command);
   void publish_status(const ros::Time& now, const spf::host::TrackerCommand& command, double control_us);
-  void report(const ros::Time& now, const spf::host::TrackerCommand& command);
-  void refuse(const char* what, const std::string& why);
+  void report(const ros::Time& now);
+  void refuse(const char* what, const std::string& why, bool harmless = false);
   [[nodiscard]] double now() const { return clock_.seconds(ros::Time::now()); }
 
   ros::NodeHandle node_;
@@ -56,8 +56,7 @@ class TrackerNode {
   ros::Publisher cmd_vel_, wheel_speeds_, estimate_, status_;
   ros::Timer timer_;
   std::optional<double> observed_;  // [s] the newest observation behind the plan
-  std::string base_frame_;
-  std::string last_refusal_;
+  spf::host::RefusalLog refusals_;
 };
 
 }  // namespace spf_empc_ros
