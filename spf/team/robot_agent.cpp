@@ -17,6 +17,7 @@ struct RobotAgent::Implementation {
   Implementation(int robot_id, const AgentParameters& agent_parameters, const OccupancyMap& map,
                  const Pose2& start, double time);
 
+  void reconfigure(const AgentParameters& changed);
   std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state,
                                         StopCause stop);
   void brake(double now);
@@ -36,6 +37,7 @@ struct RobotAgent::Implementation {
   std::optional<Eigen::Vector2d> goal;  // [m]
   std::optional<double> goal_heading;   // [rad]
   bool keep_candidates = false;
+  bool too_fast = false;  // the plan under way was made for a higher speed
   PlanResult result;
   double next_plan_time;  // [s]
 };
@@ -51,6 +53,16 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       announcement{robot_id, parameters, time},
       next_plan_time{time} {
   result.trajectory = commitment.trajectory();
+}
+
+void RobotAgent::Implementation::reconfigure(const AgentParameters& changed) {
+  std::unique_ptr<Planner> made = changed.make_planner(validated(changed));
+  too_fast = too_fast || changed.robot.max_speed < parameters.robot.max_speed;
+  parameters = changed;
+  planner = std::move(made);
+  guide.reconfigure(parameters, planner->approaches_cut_off_goal());
+  commitment.reconfigure(parameters);
+  announcement.reconfigure(parameters);
 }
 
 std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
@@ -88,6 +100,7 @@ void RobotAgent::Implementation::make_plan(double now, const std::optional<State
   request.goal_cut_off = guide.cut_off();
   request.keep_candidates = keep_candidates;
   commitment.begin_plan(state, request);
+  if (std::exchange(too_fast, false)) request.committed = nullptr;  // there is none to keep
   request.position_sigma = position_sigma(state);
   planner->plan(request, result);
   commitment.follow(request, result);
@@ -122,6 +135,9 @@ void RobotAgent::set_goal(const Eigen::Vector2d& goal_world, std::optional<doubl
 }
 void RobotAgent::clear_goal() {
   implementation_->goal.reset();
+}
+void RobotAgent::reconfigure(const AgentParameters& parameters) {
+  implementation_->reconfigure(parameters);
 }
 void RobotAgent::set_keep_candidates(bool keep) {
   implementation_->keep_candidates = keep;
@@ -160,6 +176,10 @@ const Trajectory& RobotAgent::committed() const {
 
 AgentStatus RobotAgent::status() const {
   return implementation_->announcement.status();
+}
+std::optional<GoalAccess> RobotAgent::goal_access() const {
+  if (!implementation_->goal) return std::nullopt;
+  return implementation_->guide.access(*implementation_->goal);
 }
 const OccupancyMap& RobotAgent::map() const {
   return implementation_->beliefs.map();
