@@ -130,6 +130,11 @@ void PlannerHost::cancel() {
   if (agent_) agent_->clear_goal();
 }
 
+void PlannerHost::reconfigure(const AgentParameters& agent) {
+  agent_parameters_ = validated(agent);
+  if (agent_) agent_->reconfigure(agent_parameters_);
+}
+
 PlannerCounts PlannerHost::counts() const {
   PlannerCounts counts = counts_;
   if (!agent_) return counts;

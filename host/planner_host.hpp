@@ -83,6 +83,9 @@ class PlannerHost {
   bool set_goal(const Goal& goal);
   void cancel();
   void set_switches(const Switches& switches) { switches_ = switches; }
+  /// RobotAgent::reconfigure, also of the agents of later starts. The gates, the watchdog and the controller
+  /// keep to the limits that they began with, so max_speed is to be no higher than theirs.
+  void reconfigure(const AgentParameters& agent);
   /// Every candidate of a plan is kept for display from the next start on (allocates).
   void set_keep_candidates(bool keep) { keep_candidates_ = keep; }
   /// The host could not even read something.
@@ -105,6 +108,11 @@ class PlannerHost {
   [[nodiscard]] const RobotAgent* agent() const { return agent_ ? &*agent_ : nullptr; }
   /// The map that is planned with; until it has started the given one, if any.
   [[nodiscard]] const OccupancyMap* map() const { return agent_ ? &agent_->map() : map_ ? &*map_ : nullptr; }
+  /// The map that it was told, without what is sensed; null before there is one. Where there is none to be
+  /// told, the bounds of what can be sensed.
+  [[nodiscard]] const OccupancyMap* given_map() const { return map_ ? &*map_ : nullptr; }
+  /// What forced it to stop in the last step.
+  [[nodiscard]] StopCause forced_stop() const { return stop_cause_; }
   [[nodiscard]] const AgentParameters& parameters() const { return agent_parameters_; }
 
  private:
