@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "config/parameter_text.hpp"
 #include "spf_empc_ros/conversions.hpp"
 #include "spf_empc_ros/display.hpp"
 
@@ -18,6 +19,12 @@ constexpr double kPicturePeriod = 0.2;  // [s]
 constexpr double kGridPeriod = 1.0;     // [s]
 constexpr double kStatusPeriod = 0.5;   // [s] while there is no agent
 const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
+
+ros::NodeHandle private_part_of(const ros::NodeHandle& node) {
+  ros::NodeHandle own{"~"};
+  own.setCallbackQueue(node.getCallbackQueue());
+  return own;
+}
 
 /// Numbers messages so that a later process begins higher: hundredths of a second of ROS time.
 std::uint32_t first_sequence(const ros::Time& start) {
@@ -32,24 +39,35 @@ PlannerNode::PlannerNode(ros::NodeHandle node, const RobotConfig& config, const 
       clock_{start},
       host_{config.robot_id, config.agent, config.file.host, first_sequence(start)},
       diagnostics_{node_, config.robot_id, "planner"},
-      switch_{node_, [this](bool paused, bool stop) {
+      switch_{node_,
+              [this](bool paused, bool stop) {
                 host_.planner().set_switches({stop, paused});
-              }} {
+              }},
+      own_{private_part_of(node_)},
+      store_{own_},
+      goals_{node_,
+             own_,
+             config,
+             host_,
+             frames_,
+             store_,
+             [this](const char* what, const std::string& why) { refuse(what, why); }},
+      reconfigure_{own_, config.file, store_,
+                   [this](const RunTimeSettings& settings) { reconfigure(settings); },
+                   [this](const char* what, const std::string& why) { refuse(what, why); }} {
   if (!config_.waits_for_map) host_.planner().go_without_map();
   trajectory_ = node_.advertise<spf_empc_msgs::Trajectory>("trajectory", 10);
   broadcast_ = node_.advertise<spf_empc_msgs::Trajectory>("/swarm/trajectories", 50);
   status_ = node_.advertise<spf_empc_msgs::RobotStatus>("status", 10);
-  path_ = node_.advertise<nav_msgs::Path>("path", 2);
-  markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
-  grid_ = node_.advertise<nav_msgs::OccupancyGrid>("grid", 1, true);
-  tracks_ = node_.advertise<spf_empc_msgs::ObstacleTracks>("tracks", 5);
+  pictures_.path = node_.advertise<nav_msgs::Path>("path", 2);
+  pictures_.markers = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  pictures_.grid = node_.advertise<nav_msgs::OccupancyGrid>("grid", 1, true);
+  pictures_.tracks = node_.advertise<spf_empc_msgs::ObstacleTracks>("tracks", 5);
   subscribers_ = {node_.subscribe("odom", 50, &PlannerNode::on_pose, this, kNoDelay),
                   node_.subscribe("wheel_speeds", 20, &PlannerNode::on_wheels, this, kNoDelay),
                   node_.subscribe("observation", 10, &PlannerNode::on_observation, this, kNoDelay),
                   node_.subscribe("/swarm/trajectories", 200, &PlannerNode::on_peer, this, kNoDelay),
-                  node_.subscribe("goal", 5, &PlannerNode::on_goal, this),
-                  node_.subscribe("/map", 1, &PlannerNode::on_map, this),
-                  node_.subscribe("cancel", 5, &PlannerNode::on_cancel, this)};
+                  node_.subscribe("/map", 1, &PlannerNode::on_map, this)};
   timer_ = node_.createTimer(ros::Duration{kStepPeriod}, [this](const ros::TimerEvent&) { step(); });
 }
 
@@ -101,17 +119,6 @@ void PlannerNode::on_peer(const spf_empc_msgs::Trajectory::ConstPtr& trajectory)
     refuse("/swarm/trajectories", "out of range");
 }
 
-void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
-  std_msgs::Header header = goal->header;
-  if (header.frame_id.empty()) header.frame_id = config_.frame;
-  const Converted<spf::Pose2> place = frames_.pose(header, goal->pose, config_.frame);
-  if (!place) {
-    host_.planner().count_refused_input();
-    return refuse("goal", place.refusal);
-  }
-  if (!host_.planner().set_goal({place->position_world, place->heading})) refuse("goal", "beyond all robots");
-}
-
 void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
   if (!config_.waits_for_map) return;
   Converted<spf::OccupancyMap> known =
@@ -120,12 +127,15 @@ void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
     host_.planner().count_refused_input();
     return refuse("/map", known.refusal);
   }
-  shown_grid_.revision.reset();
+  pictures_.shown_revision.reset();
   host_.planner().set_map(std::move(*known.value));
 }
 
-void PlannerNode::on_cancel(const std_msgs::Empty::ConstPtr&) {
-  host_.planner().cancel();
+void PlannerNode::reconfigure(const RunTimeSettings& settings) {
+  const spf::AgentParameters agent = spf::agent_parameters(settings.file);
+  host_.planner().reconfigure(agent);
+  goals_.reconfigure(agent, settings.file.host);
+  switch_.pause_by_parameter(settings.paused);
 }
 
 // ---- out
@@ -137,6 +147,7 @@ void PlannerNode::step() {
   const double seconds = clock_.seconds(time);
   const spf::host::PlannerOutput& output = host_.step(seconds);
   const double plan_ms = 1e3 * (ros::WallTime::now() - begun).toSec();
+  goals_.step(seconds);
   if (output.planned) publish_plan(output);
   const bool back = next_status_ > seconds + kStatusPeriod;  // the clock has jumped
   if (output.planned || seconds >= next_status_ || back) {
@@ -144,12 +155,12 @@ void PlannerNode::step() {
     publish_status(time, output.planned ? plan_ms : 0.0);
     report(time);
   }
-  if (seconds >= next_picture_ || next_picture_ > seconds + kPicturePeriod) {
-    next_picture_ = seconds + kPicturePeriod;
+  if (seconds >= pictures_.next || pictures_.next > seconds + kPicturePeriod) {
+    pictures_.next = seconds + kPicturePeriod;
     publish_pictures(seconds);
   }
-  if (seconds >= shown_grid_.next || shown_grid_.next > seconds + kGridPeriod) {
-    shown_grid_.next = seconds + kGridPeriod;
+  if (seconds >= pictures_.next_grid || pictures_.next_grid > seconds + kGridPeriod) {
+    pictures_.next_grid = seconds + kGridPeriod;
     publish_grid(time);
   }
 }
@@ -158,8 +169,8 @@ void PlannerNode::publish_plan(const spf::host::PlannerOutput& output) {
   const std::optional<double> observed =
       std::isfinite(output.observed) ? std::optional<double>{output.observed} : std::nullopt;
   trajectory_.publish(to_message(ToldTrajectory{output.plan, observed}, clock_, config_.frame));
-  if (tracks_.getNumSubscribers() > 0)
-    tracks_.publish(to_message(host_.planner().agent()->tracks(), clock_, config_.frame));
+  if (pictures_.tracks.getNumSubscribers() > 0)
+    pictures_.tracks.publish(to_message(host_.planner().agent()->tracks(), clock_, config_.frame));
   if (output.broadcast)
     broadcast_.publish(to_message(ToldTrajectory{*output.broadcast, observed}, clock_, config_.frame));
 }
@@ -181,6 +192,8 @@ void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {
   }
   if (host_.planner().agent() != nullptr)
     message.outcome = spf::to_string(host_.planner().agent()->last_plan().outcome);
+  message.goal_outcome = to_string(goals_.outcome());
+  message.max_speed = host_.planner().parameters().robot.max_speed;
   message.plan_ms = plan_ms;
   message.plans = counts.plans;
   message.messages_accepted = counts.messages_accepted;
@@ -193,32 +206,40 @@ void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {
 
 void PlannerNode::publish_pictures(double now) {
   if (host_.planner().agent() == nullptr) return;
-  if (path_.getNumSubscribers() > 0)
-    path_.publish(path_message(host_.planner().agent()->committed(), now, clock_, config_.frame));
-  if (markers_.getNumSubscribers() > 0)
-    markers_.publish(marker_message(*host_.planner().agent(), host_.localiser().belief().pose_world, now,
-                                    clock_, config_.frame));
+  if (pictures_.path.getNumSubscribers() > 0)
+    pictures_.path.publish(path_message(host_.planner().agent()->committed(), now, clock_, config_.frame));
+  if (pictures_.markers.getNumSubscribers() > 0)
+    pictures_.markers.publish(marker_message(*host_.planner().agent(), host_.localiser().belief().pose_world,
+                                             now, clock_, config_.frame));
 }
 
 /// The map that is planned with, to somebody who looks, when it has changed.
 void PlannerNode::publish_grid(const ros::Time& now) {
   const spf::OccupancyMap* map = host_.planner().map();
-  if (map == nullptr || grid_.getNumSubscribers() == 0 || shown_grid_.revision == map->revision()) return;
-  shown_grid_.revision = map->revision();
+  if (map == nullptr || pictures_.grid.getNumSubscribers() == 0 ||
+      pictures_.shown_revision == map->revision())
+    return;
+  pictures_.shown_revision = map->revision();
   nav_msgs::OccupancyGrid grid = to_message(*map, config_.frame);
   grid.header.stamp = now;
-  grid_.publish(grid);
+  pictures_.grid.publish(grid);
 }
 
 void PlannerNode::report(const ros::Time& now) {
   const spf::host::PlannerStatus status = host_.planner().status();
-  if (!diagnostics_.due(now, status.reason)) return;
+  // A goal that was given up stays on show until there is another.
+  const bool gave_up = given_up(goals_.outcome()) && host_.planner().fault().empty();
+  const std::string text = gave_up ? std::string{"gave up: "} + to_string(goals_.outcome()) : status.reason;
+  if (!diagnostics_.due(now, text)) return;
   Health health = Health::ok;
   if (status.state == spf::PeerState::stopped) health = Health::standing;
   if (!host_.planner().fault().empty()) health = Health::missing;
   if (status.state == spf::PeerState::arrived || !host_.planner().goal())
     health = host_.planner().fault().empty() ? Health::ok : health;
+  if (gave_up) health = Health::standing;
   Diagnostics::Values values{
+      {"goal", to_string(goals_.outcome())},
+      {"max speed", spf::to_text(host_.planner().parameters().robot.max_speed) + " m/s"},
       {"plans", std::to_string(host_.planner().counts().plans)},
       {"inputs refused", std::to_string(host_.planner().counts().inputs_refused)},
       {"poses refused", std::to_string(host_.localiser().poses_refused())},
@@ -230,7 +251,7 @@ void PlannerNode::report(const ros::Time& now) {
     values.emplace_back("tracks", std::to_string(agent->tracks().size()));
   if (status.culprit >= 0) values.emplace_back("culprit", std::to_string(status.culprit));
   if (!last_refusal_.empty()) values.emplace_back("last refusal", last_refusal_);
-  diagnostics_.report(now, health, status.reason, values);
+  diagnostics_.report(now, health, text, values);
 }
 
 }  // namespace spf_empc_ros
