@@ -111,7 +111,11 @@ void ReconfigureServer::read_parameters() {
   }
   bool paused = false;
   if (own_.getParam(kPause, paused)) add_pause(paused, config);
-  change(config);
+  try {
+    change(config);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument{"parameters of " + own_.getNamespace() + ": " + error.what()};
+  }
 }
 
 bool ReconfigureServer::on_set(dynamic_reconfigure::Reconfigure::Request& request,
@@ -137,11 +141,17 @@ void ReconfigureServer::change(const Config& asked) {
     paused = flag.value != 0;
   }
   apply_({with_run_time_values(file_, values), paused});
-  for (const auto& [name, value] : values) {
-    if (const double* number = std::get_if<double>(&value))
-      store_.set(name, *number);
-    else
-      store_.set(name, std::get<std::string>(value));
+  for (const RunTimeField& field : fields_) {
+    const auto value = values.find(field.name);
+    if (value == values.end()) continue;
+    if (value->second == field.value) {  // as in the file again, and in the one that a later process reads
+      values.erase(value);
+      store_.erase(field.name);
+    } else if (const double* number = std::get_if<double>(&value->second)) {
+      store_.set(field.name, *number);
+    } else {
+      store_.set(field.name, std::get<std::string>(value->second));
+    }
   }
   if (paused != paused_) store_.set(kPause, paused);
   values_ = std::move(values);

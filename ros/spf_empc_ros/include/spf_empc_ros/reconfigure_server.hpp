@@ -53,7 +53,7 @@ class ReconfigureServer {
   ParameterStore& store_;
   Apply apply_;
   Refuse refuse_;
-  std::map<std::string, spf::RunTimeValue> values_;  // that differ from the file, or once did
+  std::map<std::string, spf::RunTimeValue> values_;  // that differ from the file's
   bool paused_ = false;
   ros::Publisher descriptions_, updates_;
   ros::ServiceServer service_;
