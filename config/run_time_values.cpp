@@ -100,14 +100,14 @@ struct FieldSetter {
 }  // namespace
 
 const std::vector<std::pair<std::string, std::string>>& run_time_keys() {
-  static const std::vector<std::pair<std::string, std::string>> keys{
+  static const std::vector<std::pair<std::string, std::string>> kKeys{
       {"speed_limit", "robot.max_speed"},
       {"heading_mode", "agent.heading_mode"},
       {"goal_tolerance", "agent.team.goal_tolerance"},
       {"goal_heading_tolerance", "host.goal_heading_tolerance"},
       {"goal_patience", "host.goal_patience"},
       {"path_clearance", "agent.guide.clearance"}};
-  return keys;
+  return kKeys;
 }
 
 std::vector<RunTimeField> run_time_fields(const RobotFile& file) {
