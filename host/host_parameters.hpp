@@ -35,20 +35,23 @@ struct HostParameters {
   NoReturn no_return = NoReturn::infinite;  ///< how the scanner says that nothing is there
   double plan_silence = 0.5;                ///< [s] without a word of the planner until the tracker brakes
   double command_silence = 0.5;             ///< [s] without a word of what the wheels are told: they stand
-  double largest_plan_error = 0.6;   ///< [m] farther from its plan the tracker stands and waits for a new one
-  double jump_distance = 0.5;        ///< [m] beyond what the robot can drive: the pose has jumped
-  double jump_heading = 0.5;         ///< [rad] likewise
-  double jump_persistence = 0.5;     ///< [s] a jump that lasts is believed: the robot was relocalised
-  double clock_error = 0.1;          ///< [s] by which a stamp may be ahead of the clock
-  double clock_jump = 1.0;           ///< [s] between two steps: beyond, the clock has jumped
-  bool trusts_peers = false;         ///< peers are taken at their word, unchecked
-  double peer_clock_error = 0.05;    ///< [s] beyond, a peer's clock is off and the peer a stranger
-  double largest_peer_radius = 2.0;  ///< [m] messages of larger peers are malformed
-  double largest_peer_sigma = 1.0;   ///< [m] likewise of those who do not know where they are
-  double largest_peer_speed = 10.0;  ///< [m/s] likewise of faster ones
-  double grid_size = 40.0;           ///< [m] side of the sensed map, around the start, where no map is given
-  double map_resolution = 0.1;       ///< [m] node distance of the map, given or sensed
-  double map_reach = 2.0;            ///< [m] up to which its distances are exact
+  double largest_plan_error = 0.6;  ///< [m] farther from its plan the tracker stands and waits for a new one
+  double jump_distance = 0.5;       ///< [m] beyond what the robot can drive: the pose has jumped
+  double jump_heading = 0.5;        ///< [rad] likewise
+  double jump_persistence = 0.5;    ///< [s] a jump that lasts is believed: the robot was relocalised
+  double clock_error = 0.1;         ///< [s] by which a stamp may be ahead of the clock
+  double clock_jump = 1.0;          ///< [s] between two steps: beyond, the clock has jumped
+  double goal_heading_tolerance = 0.1;  ///< [rad] within which the heading of the goal is reached
+  double goal_patience = 10.0;          ///< [s] without a way to the goal until it is given up
+  double goal_memory = 10.0;            ///< [s] of absence after which a goal is not taken up again
+  bool trusts_peers = false;            ///< peers are taken at their word, unchecked
+  double peer_clock_error = 0.05;       ///< [s] beyond, a peer's clock is off and the peer a stranger
+  double largest_peer_radius = 2.0;     ///< [m] messages of larger peers are malformed
+  double largest_peer_sigma = 1.0;      ///< [m] likewise of those who do not know where they are
+  double largest_peer_speed = 10.0;     ///< [m/s] likewise of faster ones
+  double grid_size = 40.0;      ///< [m] side of the sensed map, around the start, where no map is given
+  double map_resolution = 0.1;  ///< [m] node distance of the map, given or sensed
+  double map_reach = 2.0;       ///< [m] up to which its distances are exact
   GuardParameters guard;
 
   template <class Self, class Visitor>
@@ -74,6 +77,12 @@ struct HostParameters {
           "stamps may be ahead of the clock by so much");
     visit("clock_jump", self.clock_jump, "s", Range{0.1, 60.0},
           "a longer step of the clock, or one backwards, is a jump");
+    visit("goal_heading_tolerance", self.goal_heading_tolerance, "rad", Range{0.01, 3.2},
+          "the goal's heading counts as reached within this");
+    visit("goal_patience", self.goal_patience, "s", Range{0.0, 3600.0},
+          "a goal of the action is given up when no way has led to it for so long");
+    visit("goal_memory", self.goal_memory, "s", Range{0.0, 3600.0},
+          "a robot that was away for longer does not take up its goal again");
     visit(
         "trusts_peers", self.trusts_peers,
         "peers are taken at their word: neither their messages nor that they are where they say is checked");

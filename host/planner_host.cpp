@@ -145,6 +145,12 @@ void PlannerHost::cancel() {
   if (agent_) agent_->clear_goal();
 }
 
+void PlannerHost::reconfigure(const AgentParameters& agent) {
+  refuse_contradictions(contradictions(validated(agent), host_));
+  agent_parameters_ = agent;
+  if (agent_) agent_->reconfigure(agent_parameters_);
+}
+
 PlannerCounts PlannerHost::counts() const {
   PlannerCounts counts = counts_;
   if (!agent_) return counts;

@@ -92,6 +92,10 @@ class PlannerHost {
   bool set_goal(const Goal& goal);
   void cancel();
   void set_switches(const Switches& switches) { switches_ = switches; }
+  /// RobotAgent::reconfigure, also of the agents of later starts. The gates, the watchdog and the controller
+  /// keep to the limits that they began with, so max_speed is to be no higher than theirs. Throws
+  /// std::invalid_argument as the constructor does; all then stays as it was.
+  void reconfigure(const AgentParameters& agent);
   /// Every candidate of a plan is kept for display from the next start on (allocates).
   void set_keep_candidates(bool keep) { keep_candidates_ = keep; }
   /// Something is wrong with a peer; and so is with one whose message could not even be read.
@@ -124,6 +128,11 @@ class PlannerHost {
   [[nodiscard]] const RobotAgent* agent() const { return agent_ ? &*agent_ : nullptr; }
   /// The map that is planned with; until it has started the given one, if any.
   [[nodiscard]] const OccupancyMap* map() const { return agent_ ? &agent_->map() : map_ ? &*map_ : nullptr; }
+  /// The map that it was told, of which known shapes alone count; null before there is one. Where there is
+  /// none to be told, the bounds of what can be sensed.
+  [[nodiscard]] const OccupancyMap* given_map() const { return map_ ? &*map_ : nullptr; }
+  /// What forced it to stop in the last step.
+  [[nodiscard]] StopCause forced_stop() const { return stop_cause_; }
   [[nodiscard]] const AgentParameters& parameters() const { return agent_parameters_; }
 
  private:

@@ -5,7 +5,7 @@ spf_ros_options(spf_empc_simulator)
 target_link_libraries(spf_empc_simulator PUBLIC spf_empc_ros spf::study spf::sim)
 spf_ros_node(simulator_node SOURCES src/simulator_node_main.cpp LIBRARIES spf_empc_simulator)
 spf_ros_node(robot_file SOURCES src/robot_file_main.cpp LIBRARIES spf::study spf::config)
-catkin_install_python(PROGRAMS scripts/fleet_rviz scripts/fleet_watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+catkin_install_python(PROGRAMS scripts/fleet_rviz scripts/fleet_watch scripts/send_goal DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY launch config rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
 if(CATKIN_ENABLE_TESTING)

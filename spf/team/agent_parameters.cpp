@@ -1,5 +1,7 @@
 #include "spf/team/agent_parameters.hpp"
 
+#include <algorithm>
+
 #include "spf/robot/robot_scale.hpp"
 
 namespace spf {
@@ -8,6 +10,16 @@ AgentParameters defaults_for(const RobotParameters& robot) {
   AgentParameters parameters = scaled(AgentParameters{}, RobotScale{robot});
   parameters.robot = robot;
   return parameters;
+}
+
+AgentParameters slowed_to(AgentParameters agent, double max_speed) {
+  constexpr double kShortestHorizon = 0.05;  // [m] the ranges of PlannerParameters
+  constexpr double kShortestPiece = 0.01;    // [m]
+  const double ratio = max_speed / agent.robot.max_speed;
+  agent.robot.max_speed = max_speed;
+  agent.planner.horizon = std::max(ratio * agent.planner.horizon, kShortestHorizon);
+  agent.planner.piece_length = std::max(ratio * agent.planner.piece_length, kShortestPiece);
+  return agent;
 }
 
 }  // namespace spf

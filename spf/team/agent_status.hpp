@@ -37,6 +37,13 @@ enum class StopCause {
 [[nodiscard]] const char* to_string(StopCause cause);
 inline constexpr std::size_t kStopCauses = static_cast<std::size_t>(StopCause::control_failed) + 1;
 
+/// How the static map, as far as it is known, lets a robot come to its goal.
+enum class GoalAccess {
+  open,     ///< a way leads there
+  blocked,  ///< it lies in a wall, or nearer to one than the robot goes: at best a way leads to beside it
+  cut_off,  ///< no way leads there
+};
+
 /// A cause and who is behind it.
 struct StandCause {
   StopCause reason = StopCause::none;

@@ -21,6 +21,11 @@ Announcement::Announcement(int robot_id, const AgentParameters& parameters, doub
       last_motion_time_{time},
       next_message_time_{time} {}
 
+void Announcement::reconfigure(const AgentParameters& parameters) {
+  robot_ = parameters.robot;
+  goal_tolerance_ = parameters.team.goal_tolerance;
+}
+
 void Announcement::update(double time, const Situation& situation) {
   const FlatState now = situation.committed.state(time);
   const double speed = now.velocity_world.norm();

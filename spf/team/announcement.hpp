@@ -23,6 +23,9 @@ class Announcement {
  public:
   Announcement(int robot_id, const AgentParameters& parameters, double time);
 
+  /// Another goal tolerance and other limits from now on.
+  void reconfigure(const AgentParameters& parameters);
+
   /// How the robot stands at a time [s].
   void update(double time, const Situation& situation);
   [[nodiscard]] const AgentStatus& status() const { return status_; }

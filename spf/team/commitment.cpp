@@ -16,6 +16,11 @@ Commitment::Commitment(const AgentParameters& parameters, const Pose2& start, do
       held_heading_{start.heading},
       trajectory_{Trajectory::standing(start.position_world, time, 1.0, HeadingProfile{start.heading})} {}
 
+void Commitment::reconfigure(const AgentParameters& parameters) {
+  heading_mode_ = parameters.heading_mode;
+  robot_ = parameters.robot;
+}
+
 void Commitment::begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request,
                             const std::optional<Hold>& hold) {
   request.head = trajectory_.state(request.time);
@@ -47,7 +52,15 @@ void Commitment::follow(const PlanRequest& request, const PlanResult& result) {
   }
   braking_ = result.action == PlanAction::brake;
   trajectory_ = result.trajectory;
+  if (ends_soon(request)) held_heading_ = *request.goal_heading;
   trajectory_.set_heading(heading_for(request));
+}
+
+/// From where it begins to brake for the goal, or a little before, the robot turns to the goal's heading.
+bool Commitment::ends_soon(const PlanRequest& request) const {
+  if (!request.goal_heading) return false;
+  const double stopping = request.head.velocity_world.squaredNorm() / (2.0 * robot_.max_acceleration);
+  return (request.goal_world - request.head.position_world).norm() <= stopping + robot_.radius;
 }
 
 bool Commitment::brake(double time) {
@@ -67,6 +80,10 @@ HeadingProfile Commitment::heading_for(const PlanRequest& request) const {
       target = request.goal_heading.value_or(held_heading_);
       break;
     case HeadingMode::motion: {
+      if (ends_soon(request)) {
+        target = *request.goal_heading;
+        break;
+      }
       const Eigen::Vector2d ahead = trajectory_.state(request.time + 0.5).velocity_world;
       const bool clearly = ahead.norm() > 0.1 * robot_.max_speed;
       target = clearly ? std::atan2(ahead.y(), ahead.x()) : request.heading.heading;

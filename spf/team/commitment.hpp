@@ -17,12 +17,16 @@ class Commitment {
   /// Stands at `start` from `time` on.
   Commitment(const AgentParameters& parameters, const Pose2& start, double time);
 
+  /// Other limits and another heading mode from the next plan on.
+  void reconfigure(const AgentParameters& parameters);
+
   /// Fills in where a plan made at request.time begins. It goes on from the trajectory, which keeps the
   /// motion smooth; a robot that has been carried too far from it (`estimate`, when given) starts anew where
   /// it is, as it is told to move when it is held, and so does one that may not go on at all.
   void begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request,
                   const std::optional<Hold>& hold = std::nullopt);
-  /// Does what the result's action says, with the heading that the heading mode wants.
+  /// Does what the result's action says, with the heading that the heading mode wants; near its end with the
+  /// goal's, where the goal has one, whatever the mode. That is kept from then on where the mode keeps one.
   void follow(const PlanRequest& request, const PlanResult& result);
   /// Brakes from the trajectory, unless it is a braking one already. True when a new one began.
   bool brake(double time);
@@ -34,13 +38,14 @@ class Commitment {
   [[nodiscard]] double tracking_variance() const { return tracking_variance_; }
 
  private:
+  [[nodiscard]] bool ends_soon(const PlanRequest& request) const;
   [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request) const;
 
   HeadingMode heading_mode_;
   RobotParameters robot_;
   OmniKinematics kinematics_;
   double reanchor_distance_;  // [m]
-  double held_heading_;       // [rad]
+  double held_heading_;       // [rad] in mode `keep`
   Trajectory trajectory_;
   bool braking_ = false;
   double tracking_variance_ = 0.0;  // [m^2]

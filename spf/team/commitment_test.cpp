@@ -144,6 +144,7 @@ TEST(CommitmentHeading, FollowsItsMode) {
     parameters.heading_mode = mode;
     Commitment commitment{parameters, {{0.0, 0.0}, 0.3}, 0.0};
     PlanRequest request = request_at(1.0);
+    request.goal_world = {9.0, 9.0};
     request.goal_heading = -1.0;
     commitment.begin_plan(std::nullopt, request);
     commitment.follow(request, follow(straight({0.0, 0.0}, {0.3, 0.3}, 1.0, 20.0)));
@@ -151,6 +152,55 @@ TEST(CommitmentHeading, FollowsItsMode) {
     EXPECT_NEAR(commitment.trajectory().heading().state(20.0).heading, wanted, 1e-9);
     EXPECT_NEAR(commitment.trajectory().heading().state(1.0).heading, 0.3, 1e-9);  // without a jump
   }
+}
+
+/// Drives straight along x to a goal 5 m away, planning every 0.1 s; the heading at each plan.
+std::vector<double> headings_on_the_way(Commitment& commitment, const Trajectory& way, double goal_heading) {
+  std::vector<double> headings;
+  for (double time = way.start_time(); time < way.end_time() + 4.0; time += 0.1) {
+    PlanRequest request = request_at(time);
+    request.goal_world = way.tail_position();
+    request.goal_heading = goal_heading;
+    commitment.begin_plan(std::nullopt, request);
+    headings.push_back(request.heading.heading);
+    commitment.follow(request, follow(way));
+  }
+  return headings;
+}
+
+/// At 1 m/s along x, then braking with 1 m/s^2.
+Trajectory way_to(double distance) {
+  Trajectory way = straight({0.0, 0.0}, {1.0, 0.0}, 1.0, distance - 0.5);
+  QuinticPiece brake;
+  brake.duration = 1.0;
+  brake.coefficients.row(0) << distance - 0.5, 0.0;
+  brake.coefficients.row(1) << 1.0, 0.0;
+  brake.coefficients.row(2) << -0.5, 0.0;
+  way.append(brake);
+  return way;
+}
+
+TEST(CommitmentHeading, TurnsToTheGoalsHeadingAtTheEndWhateverTheMode) {
+  for (const HeadingMode mode : {HeadingMode::keep, HeadingMode::motion}) {
+    SCOPED_TRACE(enum_name(mode));
+    AgentParameters parameters;
+    parameters.heading_mode = mode;
+    Commitment commitment{parameters, {{0.0, 0.0}, 0.0}, 0.0};
+    const std::vector<double> headings = headings_on_the_way(commitment, way_to(5.0), 2.0);
+    EXPECT_NEAR(headings[40], 0.0, 1e-9);  // 1 m before the goal
+    EXPECT_NEAR(headings.back(), 2.0, 1e-6);
+    EXPECT_NEAR(commitment.trajectory().heading().target_heading(), 2.0, 1e-9);
+  }
+}
+
+TEST(CommitmentHeading, KeepsTheHeadingOfItsLastGoalOnTheWayToTheNext) {
+  Commitment commitment{AgentParameters{}, {{0.0, 0.0}, 0.3}, 0.0};
+  EXPECT_NEAR(headings_on_the_way(commitment, way_to(5.0), 2.0).back(), 2.0, 1e-6);
+  PlanRequest request = request_at(20.0);
+  request.goal_world = {-5.0, 0.0};
+  commitment.begin_plan(std::nullopt, request);
+  commitment.follow(request, follow(straight({5.0, 0.0}, {-1.0, 0.0}, 20.0, 5.0)));
+  EXPECT_NEAR(commitment.trajectory().heading().target_heading(), 2.0, 1e-9);
 }
 
 TEST(CommitmentHeading, KeepsStillWhileItsMotionSaysNothing) {

@@ -21,6 +21,16 @@ GuidePolicy::GuidePolicy(const AgentParameters& parameters, bool approaches_cut_
       cost_to_go_{for_robot(parameters)},
       next_time_{time} {}
 
+void GuidePolicy::reconfigure(const AgentParameters& parameters, bool approaches_cut_off_goal) {
+  approaches_cut_off_goal_ = approaches_cut_off_goal;
+  goal_tolerance_ = parameters.team.goal_tolerance;
+  const CostToGoParameters wanted = for_robot(parameters);
+  const CostToGoParameters& present = cost_to_go_.parameters();
+  if (wanted.clearance == present.clearance && wanted.resolution == present.resolution) return;
+  cost_to_go_ = CostToGo{wanted};
+  goal_.reset();
+}
+
 void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                           const Eigen::Vector2d& here) {
   const bool same_goal = cost_to_go_.ready() && goal_ == goal_world;
@@ -64,6 +74,15 @@ bool GuidePolicy::way_clear(const OccupancyMap& map, const Eigen::Vector2d& here
   for (std::size_t i = 1; i < corners_.size(); ++i)
     if (!map.segment_clear(corners_[i - 1], corners_[i], clearance)) return false;
   return true;
+}
+
+std::optional<GoalAccess> GuidePolicy::access(const Eigen::Vector2d& goal_world) const {
+  if (goal_ != goal_world) return std::nullopt;
+  if (cut_off_ || cost_to_go_.outcome() == CostToGoOutcome::unreachable) return GoalAccess::cut_off;
+  if (cost_to_go_.outcome() == CostToGoOutcome::no_free_goal) return GoalAccess::blocked;
+  // A robot that ends within its tolerance of the goal gets there all the same.
+  const bool beside = (cost_to_go_.goal_used() - goal_world).norm() >= goal_tolerance_;
+  return beside ? GoalAccess::blocked : GoalAccess::open;
 }
 
 bool GuidePolicy::goal_out_of_reach(const Eigen::Vector2d& here) const {

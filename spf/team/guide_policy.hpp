@@ -9,6 +9,7 @@
 
 #include "spf/planning/cost_to_go.hpp"
 #include "spf/team/agent_parameters.hpp"
+#include "spf/team/agent_status.hpp"
 
 namespace spf {
 
@@ -16,6 +17,9 @@ class GuidePolicy {
  public:
   /// `approaches_cut_off_goal`: see Planner.
   GuidePolicy(const AgentParameters& parameters, bool approaches_cut_off_goal, double time);
+
+  /// Other parameters from now on; a guide with another clearance or resolution is computed anew.
+  void reconfigure(const AgentParameters& parameters, bool approaches_cut_off_goal);
 
   /// Brings the guide up to date where that is due, for a robot at `here`.
   void refresh(double time, const OccupancyMap& map, const Eigen::Vector2d& goal_world,
@@ -29,6 +33,8 @@ class GuidePolicy {
   [[nodiscard]] const CostToGo& cost_to_go() const { return cost_to_go_; }
   /// No path leads to the goal, and the guide to the nearest position that one leads to.
   [[nodiscard]] bool cut_off() const { return cut_off_; }
+  /// None when the guide does not stand for this goal [m] yet.
+  [[nodiscard]] std::optional<GoalAccess> access(const Eigen::Vector2d& goal_world) const;
   /// Is the robot at `here` as near to the goal as it can get?
   [[nodiscard]] bool goal_out_of_reach(const Eigen::Vector2d& here) const;
 

@@ -71,5 +71,33 @@ TEST(GuidePolicy, AGoalOnBlockedGroundIsOutOfReachOnlyForARobotThatIsAsNearAsItG
   EXPECT_TRUE(guide.goal_out_of_reach(guide.cost_to_go().goal_used()));
 }
 
+TEST(GuidePolicy, SaysHowTheMapLetsTheRobotComeToItsGoal) {
+  GuidePolicy guide{AgentParameters{}, true, 0.0};
+  EXPECT_FALSE(guide.access(kGoal).has_value());
+  guide.refresh(0.0, empty_map(), kGoal, kHere);
+  EXPECT_EQ(guide.access(kGoal), GoalAccess::open);
+  EXPECT_FALSE(guide.access({0.0, 0.0}).has_value());  // it leads elsewhere
+  guide.refresh(10.0, map_of({{{3.0, -1.0}, {5.0, 1.0}}}), {3.2, 0.0}, kHere);
+  EXPECT_EQ(guide.access({3.2, 0.0}), GoalAccess::blocked);
+  for (const bool approaches : {true, false}) {
+    GuidePolicy of_method{AgentParameters{}, approaches, 0.0};
+    of_method.refresh(0.0, map_of(kRing), kGoal, kHere);
+    EXPECT_EQ(of_method.access(kGoal), GoalAccess::cut_off) << approaches;
+  }
+}
+
+TEST(GuidePolicy, TakesAnotherClearanceAtOnce) {
+  AgentParameters parameters;
+  GuidePolicy guide{parameters, true, 0.0};
+  const OccupancyMap map = map_of({{{-0.5, 0.7}, {0.5, 10.0}}, {{-0.5, -10.0}, {0.5, -0.7}}});
+  guide.refresh(0.0, map, kGoal, kHere);  // a gap of 1.4 m
+  EXPECT_EQ(guide.access(kGoal), GoalAccess::open);
+  parameters.guide.clearance = 0.5;
+  guide.reconfigure(parameters, true);
+  EXPECT_FALSE(guide.access(kGoal).has_value());
+  guide.refresh(0.01, map, kGoal, kHere);
+  EXPECT_EQ(guide.access(kGoal), GoalAccess::cut_off);
+}
+
 }  // namespace
 }  // namespace spf

@@ -26,6 +26,7 @@ struct RobotAgent::Implementation {
   Implementation(int robot_id, const AgentParameters& agent_parameters, const OccupancyMap& map,
                  const Pose2& start, double time);
 
+  void reconfigure(const AgentParameters& changed);
   std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state, StopCause stop,
                                         const std::optional<Hold>& hold);
   void brake(double now);
@@ -45,6 +46,7 @@ struct RobotAgent::Implementation {
   std::optional<Eigen::Vector2d> goal;  // [m]
   std::optional<double> goal_heading;   // [rad]
   bool keep_candidates = false;
+  bool too_fast = false;  // the plan under way was made for a higher speed
   PlanResult result;
   double next_plan_time;  // [s]
 };
@@ -60,6 +62,17 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       announcement{robot_id, parameters, time},
       next_plan_time{time} {
   result.trajectory = commitment.trajectory();
+}
+
+void RobotAgent::Implementation::reconfigure(const AgentParameters& changed) {
+  const AgentParameters wanted = within_drive(validated(changed));
+  std::unique_ptr<Planner> made = wanted.make_planner(wanted);
+  too_fast = too_fast || wanted.robot.max_speed < parameters.robot.max_speed;
+  parameters = wanted;
+  planner = std::move(made);
+  guide.reconfigure(parameters, planner->approaches_cut_off_goal());
+  commitment.reconfigure(parameters);
+  announcement.reconfigure(parameters);
 }
 
 std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
@@ -100,6 +113,7 @@ void RobotAgent::Implementation::make_plan(double now, const std::optional<State
   request.goal_cut_off = guide.cut_off();
   request.keep_candidates = keep_candidates;
   commitment.begin_plan(state, request, hold);
+  if (std::exchange(too_fast, false)) request.committed = nullptr;  // there is none to keep
   request.position_sigma = position_sigma(state);
   planner->plan(request, result);
   commitment.follow(request, result);
@@ -139,6 +153,9 @@ void RobotAgent::clear_goal() {
 void RobotAgent::set_map(OccupancyMap map) {
   implementation_->beliefs.set_map(std::move(map));
 }
+void RobotAgent::reconfigure(const AgentParameters& parameters) {
+  implementation_->reconfigure(parameters);
+}
 void RobotAgent::set_keep_candidates(bool keep) {
   implementation_->keep_candidates = keep;
 }
@@ -175,6 +192,10 @@ const Trajectory& RobotAgent::committed() const {
 
 AgentStatus RobotAgent::status() const {
   return implementation_->announcement.status();
+}
+std::optional<GoalAccess> RobotAgent::goal_access() const {
+  if (!implementation_->goal) return std::nullopt;
+  return implementation_->guide.access(*implementation_->goal);
 }
 const OccupancyMap& RobotAgent::map() const {
   return implementation_->beliefs.map();

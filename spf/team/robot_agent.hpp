@@ -37,6 +37,11 @@ class RobotAgent {
   void clear_goal();
   /// Another static map than before: plans go on in it, and what was sensed is kept.
   void set_map(OccupancyMap map);
+  /// Other parameters to plan by, from the next plan on: the robot's limits, heading mode, goal tolerance,
+  /// and what planner and guide take. Rates, and what map, tracks and peers take, stay as they were. A plan
+  /// under way that was made for a higher max_speed is not gone on with: the next one slows down within
+  /// max_acceleration, or the robot brakes. Throws std::invalid_argument when parameters are out of range.
+  void reconfigure(const AgentParameters& parameters);
   /// Keep every candidate in last_plan(), for display (allocates).
   void set_keep_candidates(bool keep);
   /// Peers (sorted) whose discs mask no scan returns, since they are not where they say: what is seen there
@@ -64,6 +69,8 @@ class RobotAgent {
   [[nodiscard]] const Trajectory& committed() const;
   /// As of the last plan.
   [[nodiscard]] AgentStatus status() const;
+  /// How the map lets it come to its goal, as of the last plan; none before there was one for this goal.
+  [[nodiscard]] std::optional<GoalAccess> goal_access() const;
   [[nodiscard]] const OccupancyMap& map() const;
   [[nodiscard]] const std::vector<ObstacleTrack>& tracks() const;
   [[nodiscard]] const std::vector<Peer>& peers() const;

@@ -101,6 +101,86 @@ TEST_P(RobotAgentTest, PausesAndGoesOn) {
   expect_limits(host);
 }
 
+TEST_P(RobotAgentTest, SlowsDownToANewLimitOfSpeedAndSpeedsUpAgain) {
+  IdealHost host{parameters(), empty_map(), {-9.0, 0.0}};
+  host.agent.set_goal({9.0, 0.0});
+  host.run(3.0);
+  ASSERT_GT(host.speed(), 0.9);
+  for (const double limit : {0.5, 0.2}) {
+    host.agent.reconfigure(slowed_to(parameters(), limit));
+    const double before = host.speed();
+    double hardest = 0.0;
+    double last = before;
+    for (int i = 0; i < 400; ++i) {
+      host.tick();
+      hardest = std::max(hardest, (last - host.speed()) / IdealHost::kTick);
+      last = host.speed();
+      // A tenth of a second until it plans, then at 1 m/s^2, and ramps.
+      const int braked = 10 + static_cast<int>(100.0 * (before - limit)) + 50;  // ticks
+      EXPECT_LE(host.speed(), i < braked ? 1.06 * before : 1.06 * limit);
+    }
+    EXPECT_LE(hardest, 1.12);
+    EXPECT_GT(host.speed(), 0.8 * limit);
+    EXPECT_EQ(host.agent.status().state, PeerState::moving);
+  }
+  host.agent.reconfigure(parameters());
+  host.run(3.0);
+  EXPECT_GT(host.speed(), 0.9);
+  EXPECT_TRUE(host.arrives_within(20.0));
+}
+
+TEST_P(RobotAgentTest, KeepsWhatItKnowsWhenItsParametersChange) {
+  IdealHost host{parameters(), empty_map(), {-4.0, 0.0}};
+  host.boxes = {kBoxAhead};
+  host.send_scans = true;
+  host.movers = {{5, 0.4, [](double) { return Eigen::Vector2d{-4.0, 5.0}; }}};
+  host.agent.set_goal({4.0, 0.0});
+  host.run(2.0);
+  const std::size_t seen = host.agent.map().occupied_points().size();
+  ASSERT_GT(seen, 0u);
+  AgentParameters changed = parameters();
+  changed.team.goal_tolerance = 0.5;
+  changed.heading_mode = HeadingMode::motion;
+  host.agent.reconfigure(changed);
+  EXPECT_EQ(host.agent.map().occupied_points().size(), seen);
+  EXPECT_EQ(host.agent.tracks().size(), 1u);
+  double turned = 0.0;
+  while (host.time() < 30.0 && host.agent.status().reason != StopCause::arrived) {
+    host.tick();
+    turned = std::max(turned, std::abs(host.agent.committed().heading().state(host.time()).heading));
+  }
+  EXPECT_GT(turned, 0.2);  // it faces the way round the box now
+  EXPECT_EQ(host.agent.status().reason, StopCause::arrived);
+  EXPECT_GT(host.box_clearance, 0.0);
+}
+
+TEST(RobotAgent, StaysAsItWasWhenItsNewParametersAreRefused) {
+  IdealHost host{AgentParameters{}, empty_map(), {-4.0, 0.0}};
+  host.agent.set_goal({4.0, 0.0});
+  AgentParameters changed;
+  changed.robot.max_speed = -1.0;
+  EXPECT_THROW(host.agent.reconfigure(changed), std::invalid_argument);
+  EXPECT_EQ(host.agent.parameters().robot.max_speed, 1.0);
+  EXPECT_TRUE(host.arrives_within(12.0));
+}
+
+TEST_P(RobotAgentTest, TurnsToTheHeadingOfItsGoalWhateverItsMode) {
+  for (const HeadingMode mode : {HeadingMode::keep, HeadingMode::goal, HeadingMode::motion}) {
+    SCOPED_TRACE(enum_name(mode));
+    AgentParameters of_mode = parameters();
+    of_mode.heading_mode = mode;
+    IdealHost host{of_mode, empty_map(), {-4.0, 0.0}};
+    host.agent.set_goal({0.0, 2.0}, -2.0);
+    EXPECT_TRUE(host.arrives_within(12.0));
+    host.run(4.0);
+    EXPECT_NEAR(host.agent.committed().heading().state(host.time()).heading, -2.0, 0.01);
+    host.agent.set_goal({0.0, 2.0}, 1.0);  // on the spot
+    host.run(4.0);
+    EXPECT_NEAR(host.agent.committed().heading().state(host.time()).heading, 1.0, 0.01);
+    EXPECT_EQ(host.agent.status().reason, StopCause::arrived);
+  }
+}
+
 TEST_P(RobotAgentTest, SaysThatThereIsNoPathToAWalledInGoal) {
   const std::vector<TrueBox> ring{{{2.0, -2.0}, {6.0, -1.5}},
                                   {{2.0, 1.5}, {6.0, 2.0}},

@@ -181,6 +181,10 @@ double OccupancyMap::distance(const Eigen::Vector2d& position_world) const {
   return patch_of(position_world, [this](int i, int j) { return node_distance(i, j); }).interpolated();
 }
 
+double OccupancyMap::known_distance(const Eigen::Vector2d& position_world) const {
+  return patch_of(position_world, [this](int i, int j) { return known_node_distance(i, j); }).interpolated();
+}
+
 Eigen::Vector2d OccupancyMap::distance_gradient(const Eigen::Vector2d& position_world) const {
   const Patch patch = patch_of(position_world, [this](int i, int j) { return node_distance(i, j); });
   return patch.slope() / frame_.resolution;

@@ -69,13 +69,13 @@ class OccupancyMap {
   /// corner or a hit point at distance d the interpolation reads up to resolution^2 / (4 d) too much. NaN
   /// reads as the origin.
   [[nodiscard]] double distance(const Eigen::Vector2d& position_world) const;
+  /// Likewise from the known shapes alone, without what was sensed.
+  [[nodiscard]] double known_distance(const Eigen::Vector2d& position_world) const;
   /// Gradient of that interpolation [1]: points away from the surface; zero where truncated.
   [[nodiscard]] Eigen::Vector2d distance_gradient(const Eigen::Vector2d& position_world) const;
   /// Distance at a node without interpolation; (i, j) inside the frame.
   [[nodiscard]] double node_distance(int i, int j) const {
-    const std::size_t slot =
-        static_cast<std::size_t>(j) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(i);
-    const float known = known_ ? (*known_)[slot] : static_cast<float>(max_distance_);
+    const float known = known_node_distance(i, j);
     return sensed_ ? std::min(known, sensed_->distance(i, j)) : known;
   }
   /// Position of a node [m].
@@ -125,6 +125,11 @@ class OccupancyMap {
   template <class SignedDistance>
   void add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,
                  const SignedDistance& signed_distance);
+  [[nodiscard]] float known_node_distance(int i, int j) const {
+    const std::size_t slot =
+        static_cast<std::size_t>(j) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(i);
+    return known_ ? (*known_)[slot] : static_cast<float>(max_distance_);
+  }
   [[nodiscard]] bool on_known_surface(const Eigen::Vector2d& position_world) const;
   [[nodiscard]] double reach_of(const RangeScan& scan) const;
   void collect_beams(const RangeScan& scan, const Pose2& sensor_pose_world, double reach,

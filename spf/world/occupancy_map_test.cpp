@@ -396,6 +396,9 @@ TEST(OccupancyMap, TakesOverWhatWasSensed) {
   EXPECT_EQ(same.occupied_points().size(), before.occupied_points().size());
   EXPECT_TRUE(same.seen_free({0.5, 0.0}));
   EXPECT_LT(same.distance({4.5, 4.5}), 0.0);
+  EXPECT_LT(same.distance({3.0, 0.0}), 0.1);
+  EXPECT_GT(same.known_distance({3.0, 0.0}), 1.0);  // what is known has nothing there
+  EXPECT_LT(same.known_distance({4.5, 4.5}), 0.0);
 
   const Pose2 moved{{1.0, -0.5}, 0.7};
   OccupancyMap elsewhere = map_of(7.0, 0.08);

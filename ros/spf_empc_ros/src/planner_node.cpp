@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "config/parameter_text.hpp"
 #include "spf_empc_ros/conversions.hpp"
 #include "spf_empc_ros/display.hpp"
 
@@ -27,6 +28,12 @@ bool same_cells(const nav_msgs::OccupancyGrid& one, const nav_msgs::OccupancyGri
          one.info.origin == other.info.origin && one.data == other.data;
 }
 
+ros::NodeHandle private_part_of(const ros::NodeHandle& node) {
+  ros::NodeHandle own{"~"};
+  own.setCallbackQueue(node.getCallbackQueue());
+  return own;
+}
+
 /// Numbers messages so that a later process begins higher: hundredths of a second of ROS time.
 std::uint32_t first_sequence(const ros::Time& start) {
   return start.sec * 100U + start.nsec / 10000000U;
@@ -41,24 +48,35 @@ PlannerNode::PlannerNode(ros::NodeHandle node, const RobotConfig& config, const 
       host_{config.robot_id, config.agent, config.file.host, first_sequence(start)},
       frames_{config.agent.team.stale_time},
       diagnostics_{node_, config_, "planner", clock_},
-      switch_{node_, [this](bool paused, bool stop) {
+      switch_{node_,
+              [this](bool paused, bool stop) {
                 host_.planner().set_switches({stop, paused});
-              }} {
+              }},
+      own_{private_part_of(node_)},
+      store_{own_},
+      goals_{node_,
+             own_,
+             config,
+             host_,
+             frames_,
+             store_,
+             [this](const char* what, const std::string& why) { refuse(what, why); }},
+      reconfigure_{own_, config.file, store_,
+                   [this](const RunTimeSettings& settings) { reconfigure(settings); },
+                   [this](const char* what, const std::string& why) { refuse(what, why); }} {
   if (!config_.waits_for_map) host_.planner().go_without_map();
   trajectory_ = node_.advertise<spf_empc_msgs::Trajectory>("trajectory", 10);
   broadcast_ = node_.advertise<spf_empc_msgs::Trajectory>("/swarm/trajectories", 50);
   status_ = node_.advertise<spf_empc_msgs::RobotStatus>("status", 10);
-  path_ = node_.advertise<nav_msgs::Path>("path", 2);
-  markers_ = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
-  grid_ = node_.advertise<nav_msgs::OccupancyGrid>("grid", 1, true);
-  tracks_ = node_.advertise<spf_empc_msgs::ObstacleTracks>("tracks", 5);
+  pictures_.path = node_.advertise<nav_msgs::Path>("path", 2);
+  pictures_.markers = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  pictures_.grid = node_.advertise<nav_msgs::OccupancyGrid>("grid", 1, true);
+  pictures_.tracks = node_.advertise<spf_empc_msgs::ObstacleTracks>("tracks", 5);
   subscribers_ = {node_.subscribe("odom", 50, &PlannerNode::on_pose, this, kNoDelay),
                   node_.subscribe("wheel_speeds", 20, &PlannerNode::on_wheels, this, kNoDelay),
                   node_.subscribe("observation", 10, &PlannerNode::on_observation, this, kNoDelay),
                   node_.subscribe("/swarm/trajectories", 200, &PlannerNode::on_peer, this, kNoDelay),
-                  node_.subscribe("goal", 5, &PlannerNode::on_goal, this),
-                  node_.subscribe("/map", 1, &PlannerNode::on_map, this),
-                  node_.subscribe("cancel", 5, &PlannerNode::on_cancel, this)};
+                  node_.subscribe("/map", 1, &PlannerNode::on_map, this)};
   timer_ = node_.createTimer(ros::Duration{kStepPeriod}, [this](const ros::TimerEvent&) { step(); });
 }
 
@@ -122,32 +140,24 @@ void PlannerNode::on_peer(const ros::MessageEvent<spf_empc_msgs::Trajectory cons
                              "another robot has this number: " + event.getPublisherName(), now());
 }
 
-void PlannerNode::on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal) {
-  std_msgs::Header header = goal->header;
-  if (header.frame_id.empty()) header.frame_id = config_.frame;
-  const Converted<spf::Pose2> place = frames_.pose(header, goal->pose, config_.frame);
-  if (!place) {
-    host_.planner().count_refused_input();
-    return refuse("goal", place.refusal);
-  }
-  if (!host_.planner().set_goal({place->position_world, place->heading})) refuse("goal", "beyond all robots");
-}
-
 void PlannerNode::on_map(const nav_msgs::OccupancyGrid::ConstPtr& map) {
   if (!config_.waits_for_map) return;
-  if (shown_grid_.given && same_cells(*shown_grid_.given, *map)) return;  // told again
+  if (given_map_ && same_cells(*given_map_, *map)) return;  // told again
   Converted<spf::OccupancyMap> known = from_message(*map, config_.frame, config_.file.host);
   if (!known) {
     host_.planner().count_refused_input();
     return refuse("/map", known.refusal);
   }
-  shown_grid_.given = map;
-  shown_grid_.revision.reset();
+  given_map_ = map;
+  pictures_.shown_revision.reset();
   host_.planner().set_map(std::move(*known.value));
 }
 
-void PlannerNode::on_cancel(const std_msgs::Empty::ConstPtr&) {
-  host_.planner().cancel();
+void PlannerNode::reconfigure(const RunTimeSettings& settings) {
+  const spf::AgentParameters agent = spf::agent_parameters(settings.file);
+  host_.planner().reconfigure(agent);
+  goals_.reconfigure(agent, settings.file.host);
+  switch_.pause_by_parameter(settings.paused);
 }
 
 // ---- out --------------------------------------------------------------------------------------------------
@@ -158,6 +168,7 @@ void PlannerNode::step() {
   const double seconds = clock_.seconds(time);
   const spf::host::PlannerOutput& output = host_.step(seconds);
   const double plan_ms = 1e3 * (ros::WallTime::now() - begun).toSec();
+  goals_.step(seconds);
   if (output.planned) publish_plan(output);
   const bool back = next_status_ > seconds + kStatusPeriod;  // the clock has jumped
   if (output.planned || seconds >= next_status_ || back) {
@@ -165,12 +176,12 @@ void PlannerNode::step() {
     publish_status(time, output.planned ? plan_ms : 0.0);
     report(time);
   }
-  if (seconds >= next_picture_ || next_picture_ > seconds + kPicturePeriod) {
-    next_picture_ = seconds + kPicturePeriod;
+  if (seconds >= pictures_.next || pictures_.next > seconds + kPicturePeriod) {
+    pictures_.next = seconds + kPicturePeriod;
     publish_pictures(seconds);
   }
-  if (seconds >= shown_grid_.next || shown_grid_.next > seconds + kGridPeriod) {
-    shown_grid_.next = seconds + kGridPeriod;
+  if (seconds >= pictures_.next_grid || pictures_.next_grid > seconds + kGridPeriod) {
+    pictures_.next_grid = seconds + kGridPeriod;
     publish_grid(time);
   }
 }
@@ -179,8 +190,8 @@ void PlannerNode::publish_plan(const spf::host::PlannerOutput& output) {
   const std::optional<double> observed =
       std::isfinite(output.observed) ? std::optional<double>{output.observed} : std::nullopt;
   trajectory_.publish(to_message(StampedTrajectory{output.plan, observed}, clock_, config_.frame));
-  if (tracks_.getNumSubscribers() > 0)
-    tracks_.publish(to_message(host_.planner().agent()->tracks(), clock_, config_.frame));
+  if (pictures_.tracks.getNumSubscribers() > 0)
+    pictures_.tracks.publish(to_message(host_.planner().agent()->tracks(), clock_, config_.frame));
   if (output.broadcast)
     broadcast_.publish(to_message(StampedTrajectory{*output.broadcast, observed}, clock_, config_.frame));
 }
@@ -202,6 +213,8 @@ void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {
   }
   if (host_.planner().agent() != nullptr)
     message.outcome = spf::to_string(host_.planner().agent()->last_plan().outcome);
+  message.goal_outcome = to_string(goals_.outcome());
+  message.max_speed = host_.planner().parameters().robot.max_speed;
   message.plan_ms = plan_ms;
   message.plans = counts.plans;
   message.messages_accepted = counts.messages_accepted;
@@ -214,31 +227,40 @@ void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {
 
 void PlannerNode::publish_pictures(double now) {
   if (host_.planner().agent() == nullptr) return;
-  if (path_.getNumSubscribers() > 0)
-    path_.publish(path_message(host_.planner().agent()->committed(), now, clock_, config_.frame));
-  if (markers_.getNumSubscribers() > 0)
-    markers_.publish(marker_message(*host_.planner().agent(), host_.localiser().belief().pose_world, now,
-                                    clock_, config_.frame));
+  if (pictures_.path.getNumSubscribers() > 0)
+    pictures_.path.publish(path_message(host_.planner().agent()->committed(), now, clock_, config_.frame));
+  if (pictures_.markers.getNumSubscribers() > 0)
+    pictures_.markers.publish(marker_message(*host_.planner().agent(), host_.localiser().belief().pose_world,
+                                             now, clock_, config_.frame));
 }
 
 /// The map that is planned with, to somebody who looks, when it has changed.
 void PlannerNode::publish_grid(const ros::Time& now) {
   const spf::OccupancyMap* map = host_.planner().map();
-  if (map == nullptr || grid_.getNumSubscribers() == 0 || shown_grid_.revision == map->revision()) return;
-  shown_grid_.revision = map->revision();
+  if (map == nullptr || pictures_.grid.getNumSubscribers() == 0 ||
+      pictures_.shown_revision == map->revision())
+    return;
+  pictures_.shown_revision = map->revision();
   nav_msgs::OccupancyGrid grid = to_message(*map, config_.frame);
   grid.header.stamp = now;
-  grid_.publish(grid);
+  pictures_.grid.publish(grid);
 }
 
 void PlannerNode::report(const ros::Time& now) {
   const double seconds = clock_.seconds(now);
   const spf::host::PlannerHost& planner = host_.planner();
   spf::host::Health health = planner.health(seconds);
+  if (given_up(goals_.outcome()) &&
+      planner.fault().empty()) {  // that stays on show until there is another goal
+    if (health.level == spf::host::Level::ok) health.text.clear();
+    worsen(health, spf::host::Level::warn, std::string{"gave up: "} + to_string(goals_.outcome()));
+  }
   refusals_.add_to(health, seconds);
   if (!diagnostics_.due(now, health)) return;
   const spf::host::Localiser& localiser = host_.localiser();
   Diagnostics::Values values{
+      {"goal", to_string(goals_.outcome())},
+      {"max speed", spf::to_text(planner.parameters().robot.max_speed) + " m/s"},
       {"plans", std::to_string(planner.counts().plans)},
       {"inputs refused", std::to_string(planner.counts().inputs_refused)},
       {"poses refused", std::to_string(localiser.poses_refused())},

@@ -2,7 +2,6 @@
 // in; the robot's own trajectory, its broadcast, status and pictures out. Topics: docs/ros.md.
 #pragma once
 
-#include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/message_event.h>
@@ -13,8 +12,6 @@
 #include <spf_empc_msgs/Observation.h>
 #include <spf_empc_msgs/Trajectory.h>
 #include <spf_empc_msgs/WheelSpeeds.h>
-#include <std_msgs/Bool.h>
-#include <std_msgs/Empty.h>
 
 #include <optional>
 #include <string>
@@ -24,6 +21,9 @@
 #include "spf_empc_ros/clock_edge.hpp"
 #include "spf_empc_ros/diagnostics.hpp"
 #include "spf_empc_ros/frames.hpp"
+#include "spf_empc_ros/goal_server.hpp"
+#include "spf_empc_ros/parameter_store.hpp"
+#include "spf_empc_ros/reconfigure_server.hpp"
 #include "spf_empc_ros/robot_config.hpp"
 #include "spf_empc_ros/stop_switch.hpp"
 
@@ -39,9 +39,8 @@ class PlannerNode {
   void on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels);
   void on_observation(const spf_empc_msgs::Observation::ConstPtr& observation);
   void on_peer(const ros::MessageEvent<spf_empc_msgs::Trajectory const>& event);
-  void on_goal(const geometry_msgs::PoseStamped::ConstPtr& goal);
   void on_map(const nav_msgs::OccupancyGrid::ConstPtr& map);
-  void on_cancel(const std_msgs::Empty::ConstPtr& cancel);
+  void reconfigure(const RunTimeSettings& settings);
   void step();
   void publish_plan(const spf::host::PlannerOutput& output);
   void publish_status(const ros::Time& now, double plan_ms);
@@ -58,17 +57,22 @@ class PlannerNode {
   Frames frames_;
   Diagnostics diagnostics_;
   StopSwitch switch_;
-  std::vector<ros::Subscriber> subscribers_;
-  ros::Publisher trajectory_, broadcast_, status_, path_, markers_, grid_, tracks_;
-  ros::Timer timer_;
-  double next_picture_ = 0.0;  // [s]
-  double next_status_ = 0.0;   // [s]
-  struct {
-    double next = 0.0;                      // [s] when it may be shown again
-    std::optional<std::uint64_t> revision;  // of the map that was
-    nav_msgs::OccupancyGrid::ConstPtr given;
-  } shown_grid_;
   spf::host::RefusalLog refusals_;
+  ros::NodeHandle own_;  // the private namespace, on the same queue
+  ParameterStore store_;
+  GoalServer goals_;
+  ReconfigureServer reconfigure_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Publisher trajectory_, broadcast_, status_;
+  ros::Timer timer_;
+  double next_status_ = 0.0;  // [s]
+  struct {
+    ros::Publisher path, markers, grid, tracks;
+    double next = 0.0;                            // [s] of path and markers
+    double next_grid = 0.0;                       // [s] when the grid may be shown again
+    std::optional<std::uint64_t> shown_revision;  // of the map that was
+  } pictures_;
+  nav_msgs::OccupancyGrid::ConstPtr given_map_;
 };
 
 }  // namespace spf_empc_ros
