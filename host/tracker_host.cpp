@@ -37,6 +37,7 @@ TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostP
       clock_error_{validated(host).clock_error},
       kinematics_{robot_},
       controller_{agent.tracker, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
+      limiter_{robot_, kinematics_, agent.tracker.control_period},
       watchdog_{host, agent.team.stale_time} {}
 
 void TrackerHost::note_pose(PoseVerdict verdict) {
@@ -78,6 +79,7 @@ void TrackerHost::meet_clock_jump() {
   has_plan_ = false;
   after_jump_ = true;
   braking_.reset();
+  last_step_time_ = kNever;
 }
 
 StopCause TrackerHost::stop_cause(double now, const Localiser& localiser) const {
@@ -114,9 +116,17 @@ void TrackerHost::follow(double now, const MotionState& state) {
   facts.controller_failed = output.status != TrackerStatus::tracking;
   command_.stop = watchdog_.watch(facts);
   command_.braking = false;
-  command_.wheel_speeds = output.wheel_speeds;
-  command_.twist_body = kinematics_.twist_body(output.wheel_speeds);
+  send(now, output.wheel_speeds, state);
   command_.reference_pose = output.reference_pose;
+}
+
+/// What leaves for the wheels: within the limits, after what is in force.
+void TrackerHost::send(double now, const Eigen::Vector3d& wanted, const MotionState& state) {
+  const double period = limiter_.period();
+  const double elapsed = last_step_time_ == kNever ? period : now - last_step_time_;
+  last_step_time_ = now;
+  command_.wheel_speeds = limiter_.limited(wanted, state.command, elapsed);
+  command_.twist_body = kinematics_.twist_body(command_.wheel_speeds);
 }
 
 /// Along a braking trajectory from where the robot is, as fast as it was told to go (and from there anew,
@@ -135,9 +145,8 @@ void TrackerHost::brake(double now, const MotionState& state) {
                       now < std::max(braking_->end_time(),
                                      braking_->heading().start_time() + braking_->heading().turn_duration());
   const TrackerOutput& output = moving ? controller_.step(now, state, *braking_) : controller_.stop();
-  command_.braking = moving;
-  command_.wheel_speeds = output.wheel_speeds;
-  command_.twist_body = kinematics_.twist_body(output.wheel_speeds);
+  send(now, output.wheel_speeds, state);
+  command_.braking = moving || !command_.wheel_speeds.isZero();
   command_.reference_pose << braking_->position(now), braking_->heading().state(now).heading;
 }
 

@@ -1,6 +1,7 @@
 // The control half of a robot: the planner's trajectory in, wheel speeds out, at the control rate and
 // whatever the planner does. When what it relies on is missing, it brakes at the largest planned acceleration
-// along a braking trajectory of its own, and stands until all is well again. Where the robot is it is told by
+// along a braking trajectory of its own, and stands until all is well again. Whatever it does, its commands
+// keep the robot's limits. Where the robot is it is told by
 // a Localiser, to which it tells what it commands. One thread. Frame: world (the fleet's); times are the
 // host's [s] and have passed a StepClock.
 #pragma once
@@ -11,6 +12,7 @@
 #include "host/localiser.hpp"
 #include "host/watchdog.hpp"
 #include "spf/team/agent_parameters.hpp"
+#include "spf/tracking/command_limiter.hpp"
 #include "spf/tracking/trajectory_controller.hpp"
 #include "spf/world/trajectory_message.hpp"
 
@@ -62,17 +64,20 @@ class TrackerHost {
   [[nodiscard]] PlanVerdict judge(const TrajectoryMessage& message, double now) const;
   void follow(double now, const MotionState& state);
   void brake(double now, const MotionState& state);
+  void send(double now, const Eigen::Vector3d& wanted, const MotionState& state);
 
   int robot_id_;
   RobotParameters robot_;
   double clock_error_;  // [s]
   OmniKinematics kinematics_;
   TrajectoryController controller_;
+  CommandLimiter limiter_;
   Watchdog watchdog_;
   TrajectoryMessage plan_;
   bool has_plan_ = false;
   bool after_jump_ = false;  // of the clock, and nothing new since
   std::optional<Trajectory> braking_;
+  double last_step_time_ = kNever;  // [s]
   Switches switches_;
   TrackerCommand command_;
   std::uint32_t plans_refused_ = 0;
