@@ -6,8 +6,9 @@
 namespace spf::host {
 Localiser::Localiser(const AgentParameters& agent, const HostParameters& host)
     : gate_{validated(host), validated(agent).robot},
-      estimator_{agent.tracker.observer, OmniKinematics{agent.robot},
-                 reckoned_lag(agent.tracker, agent.robot)},
+      kinematics_{agent.robot},
+      estimator_{agent.tracker.observer, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
+      monitor_{agent.robot},
       command_silence_{host.command_silence} {}
 
 PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
@@ -20,8 +21,11 @@ PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
     const Eigen::Vector3d command = estimator_.state().command;
     estimator_.reset();
     estimator_.apply(pose.time, command);
+    monitor_.reset();
   }
   advance_to(pose.time);
+  monitor_.note(pose.time, pose.pose_world,
+                kinematics_.twist_world(estimator_.state().wheel_speeds, pose.pose_world.heading));
   estimator_.observe(pose.time, pose.pose_world);
   return verdict;
 }
@@ -45,6 +49,7 @@ void Localiser::meet_clock_jump(double now) {
   const MotionState before = estimator_.state();
   gate_.reset();
   estimator_.reset();
+  monitor_.reset();
   if (before.estimate.valid) estimator_.observe(now, before.estimate.pose_world);
   // After a long pause (the process was suspended) a base that was told nothing has stopped by itself.
   standing_ = standing_ || now - command_time_ > command_silence_;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "host/motion_monitor.hpp"
 #include "host/pose_gate.hpp"
 #include "host/step_clock.hpp"
 #include "spf/localisation/motion_estimator.hpp"
@@ -42,6 +43,8 @@ class Localiser {
   [[nodiscard]] StateEstimate estimate(double time) const { return estimator_.estimate(time); }
   /// state(), for displays.
   [[nodiscard]] AgentEstimate belief() const;
+  /// Whether the poses show what was applied.
+  [[nodiscard]] const MotionMonitor& motion() const { return monitor_; }
   [[nodiscard]] bool has_pose() const { return gate_.last().has_value(); }
   [[nodiscard]] double pose_age(double now) const { return gate_.age(now); }  ///< [s] infinite without one
   [[nodiscard]] double command_age(double now) const { return now - command_time_; }  ///< [s] likewise
@@ -49,7 +52,9 @@ class Localiser {
 
  private:
   PoseGate gate_;
+  OmniKinematics kinematics_;
   MotionEstimator estimator_;
+  MotionMonitor monitor_;
   double command_silence_;        // [s]
   double command_time_ = kNever;  // [s] when the last command was applied
   bool standing_ = true;          // no command is in force

@@ -12,6 +12,7 @@
 
 #include "host/localiser.hpp"
 #include "host/peer_witness.hpp"
+#include "host/recovery.hpp"
 #include "host/standing_detector.hpp"
 #include "host/watchdog.hpp"
 #include "spf/team/robot_agent.hpp"
@@ -113,6 +114,8 @@ class PlannerHost {
   void start_when_ready(double now, const Localiser& localiser);
   [[nodiscard]] ObservationVerdict judge(const SensedWorld& sensed, double now) const;
   [[nodiscard]] StopCause stop_cause(double now, const Localiser* localiser) const;
+  void recover(double now, const Localiser& localiser);
+  void tell_goal();
   void let_go(double now);
   void plan(double now, const Localiser* localiser);
   void doubt_peers(const Observation& observation, const Pose2& pose_world);
@@ -124,6 +127,7 @@ class PlannerHost {
   Watchdog watchdog_;
   PeerWitness witness_;
   StandingDetector standing_;
+  Recovery recovery_;
   std::optional<OccupancyMap> map_;
   bool needs_map_ = true;
   std::optional<RobotAgent> agent_;
@@ -135,8 +139,10 @@ class PlannerHost {
   double last_detections_time_ = kNever;
   double vouched_time_ = kNever;  // [s] when the caller said that there is nothing unseen
   StopCause stop_cause_ = StopCause::none;
-  std::uint32_t sequence_;
-  std::uint32_t agent_sequence_ = 0;
+  struct {
+    std::uint32_t before;        // the agent began
+    std::uint32_t of_agent = 0;  // of its last message
+  } sequence_;
   PlannerCounts counts_;
   PlannerOutput output_;
 };

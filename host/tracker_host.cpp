@@ -89,6 +89,7 @@ StopCause TrackerHost::stop_cause(double now, const Localiser& localiser) const 
   facts.clock_jumped = after_jump_ && (!localiser.has_pose() || !has_plan_);
   facts.pose_age = localiser.pose_age(now);
   facts.plan_age = plan_age(now);
+  facts.stuck = localiser.motion().stuck(now);
   if (has_plan_)
     facts.plan_error = (command_.estimate.pose_world.position_world - plan_.trajectory.position(now)).norm();
   return watchdog_.watch(facts);
@@ -103,6 +104,8 @@ const TrackerCommand& TrackerHost::step(double now, Localiser& localiser) {
     after_jump_ = false;
     braking_.reset();
     follow(now, state);
+  } else if (localiser.motion().stuck(now)) {
+    stop_pushing(now, state);
   } else {
     brake(now, state);
   }
@@ -127,6 +130,16 @@ void TrackerHost::send(double now, const Eigen::Vector3d& wanted, const MotionSt
   last_step_time_ = now;
   command_.wheel_speeds = limiter_.limited(wanted, state.command, elapsed);
   command_.twist_body = kinematics_.twist_body(command_.wheel_speeds);
+}
+
+/// By its wheels alone: what is missing of the way is not to be made up for, nor what the observer takes for
+/// a push against it.
+void TrackerHost::stop_pushing(double now, const MotionState& state) {
+  braking_.reset();
+  send(now, controller_.stop().wheel_speeds, state);
+  command_.braking = !command_.wheel_speeds.isZero();
+  command_.reference_pose << command_.estimate.pose_world.position_world,
+      command_.estimate.pose_world.heading;
 }
 
 /// Along a braking trajectory from where the robot is, as fast as it was told to go (and from there anew,

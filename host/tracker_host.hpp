@@ -64,6 +64,7 @@ class TrackerHost {
   [[nodiscard]] PlanVerdict judge(const TrajectoryMessage& message, double now) const;
   void follow(double now, const MotionState& state);
   void brake(double now, const MotionState& state);
+  void stop_pushing(double now, const MotionState& state);
   void send(double now, const Eigen::Vector3d& wanted, const MotionState& state);
 
   int robot_id_;
