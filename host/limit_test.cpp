@@ -77,7 +77,17 @@ TEST_P(Limits, NoiseOfThePosesDoesNotShakeTheCommands) {
     bench.distort = [&](const Pose2& truth) {
       return Pose2{truth.position_world + 0.02 * random.normal2(), truth.heading + 0.01 * random.normal()};
     };
-    bench.run(5.0);
+    double changed = 0.0;  // [m/s] in all
+    const double period = bench.agent.tracker.control_period;
+    const int commands = 100;
+    for (int i = 0; i < commands; ++i) {
+      const Eigen::Vector2d before = bench.velocity_world;
+      bench.run(period);
+      changed += (bench.velocity_world - before).norm();
+    }
+    // On average far less than what the limits would let through.
+    EXPECT_LT(changed / commands, 0.5 * bench.agent.robot.max_acceleration * period);
+    RecordProperty("mean_change_" + std::to_string(number), std::to_string(changed / commands));
     expect_kept_limits(bench);
     EXPECT_GT(bench.speed(), 0.7 * bench.agent.robot.max_speed) << bench.reason();
     EXPECT_EQ(bench.localiser().motion().failures(), 0);
