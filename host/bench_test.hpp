@@ -45,11 +45,12 @@ class Bench {
       0.01;  // [s] poses; observations and plans come every tenth, commands every fifth
 
   explicit Bench(Arrangement arrangement = Arrangement::split, const HostParameters& parameters = {},
-                 std::uint32_t first_sequence = 0)
+                 std::uint32_t first_sequence = 0, const AgentParameters& agent_parameters = {})
       : host{parameters},
-        robot{0, AgentParameters{}, parameters, Motion::by_wheels, first_sequence},
-        planning{0, AgentParameters{}, parameters, first_sequence},
-        driving{0, AgentParameters{}, parameters},
+        agent{agent_parameters},
+        robot{0, agent, parameters, Motion::by_wheels, first_sequence},
+        planning{0, agent, parameters, first_sequence},
+        driving{0, agent, parameters},
         split{arrangement == Arrangement::split},
         planner{split ? planning.planner() : robot.planner()},
         tracker{split ? driving.tracker() : robot.tracker()} {
@@ -62,8 +63,8 @@ class Bench {
     ++ticks_;
     time += kTick;
     now = time + clock_offset;
-    pose.position_world += kTick * velocity_world;
-    pose.heading = wrap_angle(pose.heading + kTick * yaw_rate);
+    pose.position_world += kTick * (grip * velocity_world + push_world);
+    pose.heading = wrap_angle(pose.heading + kTick * grip * yaw_rate);
     if (send_poses) tell_pose({now, distorted(pose)});
     deliver_late_scans();
     if (ticks_ % 10 == 0) observe();
@@ -89,9 +90,11 @@ class Bench {
   void drive() {
     ASSERT_TRUE(planner.set_goal({{15.0, 0.0}, std::nullopt}));
     run(3.5);
-    ASSERT_GT(speed(), 0.9) << planner.status().reason << ", " << to_string(cause());
+    ASSERT_GT(speed(), 0.9 * agent.robot.max_speed) << planner.status().reason << ", " << to_string(cause());
   }
   [[nodiscard]] double speed() const { return velocity_world.norm(); }
+  /// That of the controller's half.
+  [[nodiscard]] const Localiser& localiser() const { return split ? driving.localiser() : robot.localiser(); }
   /// Why the controller brakes or stands.
   [[nodiscard]] StopCause cause() const { return tracker.command().stop; }
   void set_switches(const Switches& switches) {
@@ -106,12 +109,13 @@ class Bench {
   [[nodiscard]] std::string reason() const { return planner.status().reason; }
   /// What a restart by the system does to each.
   void restart_planner() {
-    planning = PlannerProcess{0, AgentParameters{}, host};
+    planning = PlannerProcess{0, agent, host};
     planner.set_map(open_map());
   }
-  void restart_tracker() { driving = TrackerProcess{0, AgentParameters{}, host}; }
+  void restart_tracker() { driving = TrackerProcess{0, agent, host}; }
 
   HostParameters host;
+  AgentParameters agent;
   RobotHost robot;          // of one process
   PlannerProcess planning;  // of two
   TrackerProcess driving;   // likewise
@@ -131,11 +135,21 @@ class Bench {
   bool send_detections = true;
   bool planner_alive = true;
   bool planner_sees_scans = true;  // or the guard alone
+  double grip = 1.0;               // [1] share of the wheels' motion that comes true: 0 = held
+  Eigen::Vector2d push_world = Eigen::Vector2d::Zero();  // [m/s] by somebody, or by the floor
   std::function<Pose2(const Pose2&)> distort;
   std::function<void()> each_tenth;
   std::vector<Pillar> pillars;
   double clearance = std::numeric_limits<double>::infinity();  // [m] least so far, to pillars
   double hardest_braking = 0.0;                                // [m/s^2] of the commands since the last reset
+  /// Of all commands since the last reset, as a share of the robot's limits [1].
+  struct Largest {
+    double speed = 0.0;
+    double acceleration = 0.0;
+    double yaw_rate = 0.0;
+    double yaw_acceleration = 0.0;
+    double wheel_speed = 0.0;
+  } largest;
 
  private:
   [[nodiscard]] Pose2 distorted(const Pose2& truth) const { return distort ? distort(truth) : truth; }
@@ -208,11 +222,25 @@ class Bench {
     const TrackerCommand& command = split ? driving.step(now) : robot.control(now);
     if (split && planner_alive) planning.add_command(now, command.wheel_speeds, now, command.guard.action);
     const Eigen::Vector3d twist = twist_in_world(command.twist_body, pose.heading);
+    note_limits(command, twist);
     hardest_braking = std::max(hardest_braking, (speed() - twist.head<2>().norm()) / (5.0 * kTick));
     velocity_world = twist.head<2>();
     yaw_rate = twist.z();
     for (const Pillar& pillar : pillars)
       clearance = std::min(clearance, (pose.position_world - pillar.center).norm() - pillar.radius - 0.3);
+  }
+
+  void note_limits(const TrackerCommand& command, const Eigen::Vector3d& twist_world) {
+    const RobotParameters& limits = agent.robot;
+    const double period = 5.0 * kTick;
+    const auto note = [](double& most, double value) { most = std::max(most, value); };
+    note(largest.speed, twist_world.head<2>().norm() / limits.max_speed);
+    note(largest.acceleration,
+         (twist_world.head<2>() - velocity_world).norm() / (limits.max_acceleration * period));
+    note(largest.yaw_rate, std::abs(twist_world.z()) / limits.max_yaw_rate);
+    note(largest.yaw_acceleration,
+         std::abs(twist_world.z() - yaw_rate) / (limits.max_yaw_acceleration * period));
+    note(largest.wheel_speed, command.wheel_speeds.lpNorm<Eigen::Infinity>() / limits.max_wheel_speed);
   }
 
   long ticks_ = 0;

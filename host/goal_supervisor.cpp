@@ -48,7 +48,7 @@ GoalFacts goal_facts(const PlannerHost& planner, const Localiser* localiser, dou
     facts.clearance = map->known_distance(goal.position_world);
   }
   const RobotAgent* agent = planner.agent();
-  if (agent == nullptr || planner.forced_stop() != StopCause::none) return facts;
+  if (agent == nullptr || planner.backs_off() || planner.forced_stop() != StopCause::none) return facts;
   facts.access = agent->goal_access();
   if (!facts.access) return facts;
   const AgentStatus status = agent->status();

@@ -10,9 +10,10 @@
 namespace spf::host {
 Localiser::Localiser(const AgentParameters& agent, const HostParameters& host)
     : gate_{validated(host), validated(agent).robot},
-      estimator_{agent.tracker.observer, OmniKinematics{agent.robot},
-                 reckoned_lag(agent.tracker, agent.robot)},
+      kinematics_{agent.robot},
+      estimator_{agent.tracker.observer, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
       history_{agent.team.stale_time},
+      monitor_{agent.robot},
       command_silence_{host.command_silence} {}
 
 PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
@@ -30,8 +31,11 @@ PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
     estimator_.reset();
     history_.clear();
     estimator_.apply(pose.time, command);
+    monitor_.reset();
   }
   advance_to(pose.time);
+  monitor_.note(pose.time, pose.pose_world,
+                kinematics_.twist_world(estimator_.state().wheel_speeds, pose.pose_world.heading));
   estimator_.observe(pose.time, pose.pose_world);
   history_.add(estimator_.time(), estimator_.state().estimate.pose_world);
   return verdict;
@@ -67,6 +71,7 @@ void Localiser::meet_clock_jump(double now) {
   placed_time_.reset();
   estimator_.reset();
   history_.clear();
+  monitor_.reset();
   if (before.estimate.valid) estimator_.observe(now, before.estimate.pose_world);
   // After a long pause (the process was suspended) a base that was told nothing has stopped by itself.
   standing_ = standing_ || now - command_time_ > command_silence_;

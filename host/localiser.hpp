@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "host/motion_monitor.hpp"
 #include "host/pose_gate.hpp"
 #include "host/pose_history.hpp"
 #include "host/scan_guard.hpp"
@@ -56,6 +57,8 @@ class Localiser {
   [[nodiscard]] AgentEstimate belief() const;
   /// That of the last note_guard(), while commands come.
   [[nodiscard]] GuardAction guard() const { return guard_; }
+  /// Whether the poses show what was applied.
+  [[nodiscard]] const MotionMonitor& motion() const { return monitor_; }
   [[nodiscard]] bool has_pose() const { return gate_.last().has_value(); }
   [[nodiscard]] double pose_age(double now) const { return gate_.age(now); }  ///< [s] infinite without one
   /// [s] since the robot was last localised; zero where no transform has placed its poses.
@@ -65,8 +68,10 @@ class Localiser {
 
  private:
   PoseGate gate_;
+  OmniKinematics kinematics_;
   MotionEstimator estimator_;
   PoseHistory history_;
+  MotionMonitor monitor_;
   Pose2 correction_;
   double command_silence_;             // [s]
   double command_time_ = kNever;       // [s] when the last command was applied

@@ -44,6 +44,7 @@ PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostP
       watchdog_{host_, agent_parameters_.team.stale_time},
       peer_watch_{robot_id, host_.peer_clock_error},
       standing_{host_, agent_parameters_.robot},
+      recovery_{agent_parameters_},
       sequence_{first_sequence} {
   refuse_contradictions(contradictions(agent_parameters_, host_));
 }
@@ -136,18 +137,21 @@ bool PlannerHost::set_goal(const Goal& goal) {
     return false;
   }
   goal_ = goal;
-  if (agent_) agent_->set_goal(goal.position_world, goal.heading);
+  recovery_.begin_anew();
+  if (agent_) tell_goal();
   return true;
 }
 
 void PlannerHost::cancel() {
   goal_.reset();
+  recovery_.begin_anew();
   if (agent_) agent_->clear_goal();
 }
 
 void PlannerHost::reconfigure(const AgentParameters& agent) {
   refuse_contradictions(contradictions(validated(agent), host_));
   agent_parameters_ = agent;
+  recovery_.reconfigure(agent);
   if (agent_) agent_->reconfigure(agent_parameters_);
 }
 
@@ -212,9 +216,9 @@ void PlannerHost::restart_where_planned(double then, double now) {
 void PlannerHost::make_agent(const Pose2& pose_world, double now) {
   agent_.emplace(robot_id_, agent_parameters_, *map_, pose_world, now);
   agent_->set_keep_candidates(keep_candidates_);
-  if (goal_) agent_->set_goal(goal_->position_world, goal_->heading);
-  sequence_ += agent_sequence_;
-  agent_sequence_ = 0;
+  recovery_.reset();
+  if (goal_) tell_goal();
+  sequence_ = {sequence_.before + sequence_.of_agent};
   stop_cause_ = StopCause::none;
   standing_.forget();
   ++counts_.restarts;
@@ -230,6 +234,7 @@ StopCause PlannerHost::stop_cause(double now, const Localiser* localiser) const 
     facts.pose_age = localiser->pose_age(now);
     facts.localisation_age = localiser->localisation_age(now);
   }
+  facts.stuck = recovery_.stuck(now);
   if (host_.relies_on_scan) facts.scan_age = now - std::max(last_scan_time_, vouched_time_);
   if (host_.relies_on_obstacles) facts.obstacles_age = now - std::max(last_detections_time_, vouched_time_);
   return watchdog_.watch(facts);
@@ -241,6 +246,7 @@ const PlannerOutput& PlannerHost::step(double now, const Localiser* localiser) {
   if (!agent_ && localiser != nullptr) start_when_ready(now, *localiser);
   if (!agent_) return output_;
 
+  if (localiser != nullptr) recover(now, *localiser);
   const StopCause cause = stop_cause(now, localiser);
   const bool at_once = (cause == StopCause::none) != (stop_cause_ == StopCause::none);
   stop_cause_ = cause;
@@ -255,6 +261,21 @@ std::optional<Hold> PlannerHost::hold(const Localiser* localiser) const {
   const OmniKinematics kinematics{agent_parameters_.robot};
   return Hold{kinematics.twist_world(motion.command, motion.estimate.pose_world.heading),
               localiser->guard() == GuardAction::stops};
+}
+
+/// A robot that is stuck: it is to stand, and may have to back off before it goes on to its goal.
+void PlannerHost::recover(double now, const Localiser& localiser) {
+  const std::optional<Eigen::Vector2d> before = recovery_.aside();
+  const bool goes = goal_ && (stop_cause_ == StopCause::none || stop_cause_ == StopCause::stuck);
+  recovery_.look(now, localiser, *agent_, goes);
+  if (recovery_.aside() != before) tell_goal();
+}
+
+void PlannerHost::tell_goal() {
+  if (recovery_.aside())
+    agent_->set_goal(*recovery_.aside());
+  else
+    agent_->set_goal(goal_->position_world, goal_->heading);
 }
 
 /// Nobody looks, and nobody is relied on to: what was seen once is let go in time.
@@ -274,8 +295,8 @@ void PlannerHost::plan(double now, const Localiser* localiser) {
   ++counts_.plans;
   output_.planned = true;
   if (told) {
-    agent_sequence_ = told->sequence;
-    told->sequence += sequence_;
+    sequence_.of_agent = told->sequence;
+    told->sequence += sequence_.before;
     peer_watch_.told(*told);
     output_.broadcast = *told;
   }
@@ -301,6 +322,7 @@ PlannerStatus PlannerHost::status() const {
   }
   const AgentStatus status = agent_->status();
   if (stop_cause_ != StopCause::none) return {status.state, to_string(stop_cause_), -1};
+  if (recovery_.aside() && status.reason == StopCause::none) return {status.state, "backs off", -1};
   return {status.state, to_string(status.reason), status.culprit};
 }
 

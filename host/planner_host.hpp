@@ -13,6 +13,7 @@
 #include "host/health.hpp"
 #include "host/localiser.hpp"
 #include "host/peer_watch.hpp"
+#include "host/recovery.hpp"
 #include "host/standing_detector.hpp"
 #include "host/watchdog.hpp"
 #include "spf/team/robot_agent.hpp"
@@ -131,6 +132,8 @@ class PlannerHost {
   /// The map that it was told, of which known shapes alone count; null before there is one. Where there is
   /// none to be told, the bounds of what can be sensed.
   [[nodiscard]] const OccupancyMap* given_map() const { return map_ ? &*map_ : nullptr; }
+  /// It was stuck, and goes elsewhere before it goes on to its goal.
+  [[nodiscard]] bool backs_off() const { return recovery_.aside().has_value(); }
   /// What forced it to stop in the last step.
   [[nodiscard]] StopCause forced_stop() const { return stop_cause_; }
   [[nodiscard]] const AgentParameters& parameters() const { return agent_parameters_; }
@@ -142,6 +145,8 @@ class PlannerHost {
   [[nodiscard]] ObservationVerdict judge(const SensedWorld& sensed, double now) const;
   [[nodiscard]] StopCause stop_cause(double now, const Localiser* localiser) const;
   [[nodiscard]] std::optional<Hold> hold(const Localiser* localiser) const;
+  void recover(double now, const Localiser& localiser);
+  void tell_goal();
   void let_go(double now);
   void plan(double now, const Localiser* localiser);
   void doubt_peers(const Observation& observation, const Pose2& pose_world);
@@ -153,6 +158,7 @@ class PlannerHost {
   Watchdog watchdog_;
   PeerWatch peer_watch_;
   StandingDetector standing_;
+  Recovery recovery_;
   std::optional<OccupancyMap> map_;
   bool needs_map_ = true;
   std::optional<RobotAgent> agent_;
@@ -164,8 +170,10 @@ class PlannerHost {
   double last_detections_time_ = kNever;
   double vouched_time_ = kNever;  // [s] when the caller said that there is nothing unseen
   StopCause stop_cause_ = StopCause::none;
-  std::uint32_t sequence_;
-  std::uint32_t agent_sequence_ = 0;
+  struct {
+    std::uint32_t before;        // the agent began
+    std::uint32_t of_agent = 0;  // of its last message
+  } sequence_;
   PlannerCounts counts_;
   PlannerOutput output_;
 };

@@ -38,6 +38,7 @@ TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostP
       clock_error_{validated(host).clock_error},
       kinematics_{robot_},
       controller_{agent.tracker, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
+      limiter_{robot_, kinematics_, agent.tracker.control_period},
       watchdog_{host, agent.team.stale_time},
       relies_on_scan_{host.relies_on_scan} {
   refuse_contradictions(contradictions(agent, host));
@@ -83,6 +84,7 @@ void TrackerHost::meet_clock_jump() {
   has_plan_ = false;
   after_jump_ = true;
   braking_.reset();
+  last_step_time_ = kNever;
   if (guard_) guard_->forget();
 }
 
@@ -99,6 +101,7 @@ StopCause TrackerHost::stop_cause(double now, const Localiser& localiser) const 
   facts.localisation_age = localiser.localisation_age(now);
   if (guard_ && relies_on_scan_) facts.scan_age = guard_->scan_age(now);
   facts.plan_age = plan_age(now);
+  facts.stuck = localiser.motion().stuck(now);
   if (has_plan_)
     facts.plan_error = (command_.estimate.pose_world.position_world - plan_.trajectory.position(now)).norm();
   return watchdog_.watch(facts);
@@ -113,6 +116,8 @@ const TrackerCommand& TrackerHost::step(double now, Localiser& localiser) {
     after_jump_ = false;
     braking_.reset();
     follow(now, state);
+  } else if (localiser.motion().stuck(now)) {
+    stop_pushing(now, state);
   } else {
     brake(now, state);
   }
@@ -140,9 +145,27 @@ void TrackerHost::follow(double now, const MotionState& state) {
   facts.controller_failed = output.status != TrackerStatus::tracking;
   command_.stop = watchdog_.watch(facts);
   command_.braking = false;
-  command_.wheel_speeds = output.wheel_speeds;
-  command_.twist_body = kinematics_.twist_body(output.wheel_speeds);
+  send(now, output.wheel_speeds, state);
   command_.reference_pose = output.reference_pose;
+}
+
+/// What leaves for the wheels: within the limits, after what is in force.
+void TrackerHost::send(double now, const Eigen::Vector3d& wanted, const MotionState& state) {
+  const double period = limiter_.period();
+  const double elapsed = last_step_time_ == kNever ? period : now - last_step_time_;
+  last_step_time_ = now;
+  command_.wheel_speeds = limiter_.limited(wanted, state.command, elapsed);
+  command_.twist_body = kinematics_.twist_body(command_.wheel_speeds);
+}
+
+/// By its wheels alone: what is missing of the way is not to be made up for, nor what the observer takes for
+/// a push against it.
+void TrackerHost::stop_pushing(double now, const MotionState& state) {
+  braking_.reset();
+  send(now, controller_.stop().wheel_speeds, state);
+  command_.braking = !command_.wheel_speeds.isZero();
+  command_.reference_pose << command_.estimate.pose_world.position_world,
+      command_.estimate.pose_world.heading;
 }
 
 /// Along a braking trajectory from where the robot is, as fast as it was told to go (and from there anew,
@@ -161,9 +184,8 @@ void TrackerHost::brake(double now, const MotionState& state) {
                       now < std::max(braking_->end_time(),
                                      braking_->heading().start_time() + braking_->heading().turn_duration());
   const TrackerOutput& output = moving ? controller_.step(now, state, *braking_) : controller_.stop();
-  command_.braking = moving;
-  command_.wheel_speeds = output.wheel_speeds;
-  command_.twist_body = kinematics_.twist_body(output.wheel_speeds);
+  send(now, output.wheel_speeds, state);
+  command_.braking = moving || !command_.wheel_speeds.isZero();
   command_.reference_pose << braking_->position(now), braking_->heading().state(now).heading;
 }
 

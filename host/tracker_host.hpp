@@ -1,9 +1,9 @@
 // The control half of a robot: the planner's trajectory in, wheel speeds out, at the control rate and
 // whatever the planner does. When what it relies on is missing, it brakes at the largest planned acceleration
-// along a braking trajectory of its own, and stands until all is well again. Where the robot is it is told by
-// a Localiser, to which it tells what it commands. Whatever it follows, the ScanGuard has the last word. One
-// thread. Frame: world (the fleet's); times are the
-// host's [s] and have passed a StepClock.
+// along a braking trajectory of its own, and stands until all is well again. Whatever it does, its commands
+// keep the robot's limits; but the ScanGuard has the last word, and may stop it harder. Where the robot is it
+// is told by a Localiser, to which it tells what it commands. One thread. Frame: world (the fleet's); times
+// are the host's [s] and have passed a StepClock.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "host/scan_guard.hpp"
 #include "host/watchdog.hpp"
 #include "spf/team/agent_parameters.hpp"
+#include "spf/tracking/command_limiter.hpp"
 #include "spf/tracking/trajectory_controller.hpp"
 #include "spf/world/trajectory_message.hpp"
 
@@ -72,6 +73,8 @@ class TrackerHost {
   [[nodiscard]] PlanVerdict judge(const TrajectoryMessage& message, double now) const;
   void follow(double now, const MotionState& state);
   void brake(double now, const MotionState& state);
+  void stop_pushing(double now, const MotionState& state);
+  void send(double now, const Eigen::Vector3d& wanted, const MotionState& state);
   void heed_guard(double now, const MotionState& state);
 
   int robot_id_;
@@ -79,6 +82,7 @@ class TrackerHost {
   double clock_error_;  // [s]
   OmniKinematics kinematics_;
   TrajectoryController controller_;
+  CommandLimiter limiter_;
   Watchdog watchdog_;
   bool relies_on_scan_;
   std::optional<ScanGuard> guard_;
@@ -86,6 +90,7 @@ class TrackerHost {
   bool has_plan_ = false;
   bool after_jump_ = false;  // of the clock, and nothing new since
   std::optional<Trajectory> braking_;
+  double last_step_time_ = kNever;  // [s]
   Switches switches_;
   TrackerCommand command_;
   std::uint32_t plans_refused_ = 0;

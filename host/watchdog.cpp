@@ -15,6 +15,7 @@ StopCause Watchdog::watch(const WatchFacts& facts) const {
   if (facts.obstacles_age > stale_time_) return StopCause::no_obstacles;
   if (std::isinf(facts.plan_age)) return StopCause::no_plan;
   if (facts.plan_age > plan_silence_) return StopCause::stale_plan;
+  if (facts.stuck) return StopCause::stuck;
   if (far(facts.plan_error)) return StopCause::far_from_plan;
   if (facts.controller_failed) return StopCause::control_failed;
   return StopCause::none;

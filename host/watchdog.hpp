@@ -18,6 +18,7 @@ struct WatchFacts {
   double scan_age = 0.0;           ///< [s]
   double obstacles_age = 0.0;      ///< [s] of the report of moving obstacles
   double plan_age = 0.0;           ///< [s]
+  bool stuck = false;              ///< does not move as it is told, or gets no farther
   double plan_error = 0.0;         ///< [m] between the robot and its plan
   bool controller_failed = false;  ///< had no answer
 };

@@ -29,6 +29,7 @@ const std::vector<Case> kCases{
     {StopCause::no_obstacles, [](WatchFacts& facts) { facts.obstacles_age = kEndless; }},
     {StopCause::no_plan, [](WatchFacts& facts) { facts.plan_age = kEndless; }},
     {StopCause::stale_plan, [](WatchFacts& facts) { facts.plan_age = 0.51; }},
+    {StopCause::stuck, [](WatchFacts& facts) { facts.stuck = true; }},
     {StopCause::far_from_plan, [](WatchFacts& facts) { facts.plan_error = 0.61; }},
     {StopCause::control_failed, [](WatchFacts& facts) { facts.controller_failed = true; }},
 };

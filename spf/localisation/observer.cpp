@@ -21,10 +21,17 @@ constexpr double kInitialDisturbanceSigma = 0.05;
 // declared noise is then wrong, and a bad measurement is better than none for ever.
 constexpr int kInconsistentFactor = 4;
 constexpr double kLargestTurn = 1.0;  // [rad] of a sensor's jump
+// Measured noise counts where its variance exceeds the declared one clearly.
+constexpr int kNoiseMemory = 100;       // measurements over which it is averaged
+constexpr double kClearly = 4.0;        // [1] times the declared variance
+constexpr double kFloorShare = 0.25;    // [1] of gate_floor: at least, as a deviation
+constexpr double kHeadingFloor = 5e-3;  // [rad] likewise
 
 }  // namespace
 
-PoseObserver::PoseObserver(const ObserverParameters& parameters) : parameters_{validated(parameters)} {
+PoseObserver::PoseObserver(const ObserverParameters& parameters)
+    : parameters_{validated(parameters)},
+      meters_{NoiseMeter{kNoiseMemory}, NoiseMeter{kNoiseMemory}, NoiseMeter{kNoiseMemory}} {
   const AxisNoise position{parameters_.pose_sigma, parameters_.velocity_noise, parameters_.drift_noise};
   noise_ = {position, position,
             AxisNoise{parameters_.heading_sigma, kHeadingVelocityNoise, kHeadingDriftNoise}};
@@ -36,6 +43,7 @@ void PoseObserver::reset() {
   agreeing_outliers_ = 0;
   outliers_in_a_row_ = 0;
   reinitialising_ = false;
+  measured_before_ = false;
 }
 
 void PoseObserver::start(const Triple& measured) {
@@ -52,6 +60,7 @@ void PoseObserver::predict(double dt, const Eigen::Vector3d& applied_twist_world
   for (std::size_t i = 0; i < 3; ++i) {
     const double velocity = usable ? applied_twist_world[static_cast<Eigen::Index>(i)] : 0.0;
     axes_[i].predict(dt, velocity, noise_[i]);
+    applied_[i] += dt * velocity;
     outlier_mean_[i] += dt * (velocity + axes_[i].disturbance());
   }
   axes_[kHeading].set_value(wrap_angle(axes_[kHeading].value()));
@@ -74,6 +83,7 @@ MeasurementOutcome PoseObserver::correct(const Pose2& measured_world) {
   if (outliers_in_a_row_ == 0)
     gate_variance_ = {axes_[0].variance(), axes_[1].variance(), axes_[kHeading].variance()};
   if (!within_gate(difference, gate_variance_)) return reject(measured);
+  if (parameters_.kind == ObserverKind::kalman) learn_noise(measured);
   apply(difference);
   for (std::size_t i = 0; i < 3; ++i) {
     // The exact measurement itself, without rounding.
@@ -81,6 +91,25 @@ MeasurementOutcome PoseObserver::correct(const Pose2& measured_world) {
       axes_[i].set_value(measured[i]);
   }
   return MeasurementOutcome::used;
+}
+
+void PoseObserver::learn_noise(const Triple& measured) {
+  if (measured_before_) {
+    const Triple change = innovation(measured, last_measured_);
+    for (std::size_t i = 0; i < 3; ++i) meters_[i].note(change[i] - applied_[i]);
+    const double position = 0.5 * (meters_[0].variance() + meters_[1].variance());
+    const auto reckoned = [](double declared, double floor, double variance) {
+      const bool clearly = variance > kClearly * declared * declared + floor * floor;
+      return clearly ? std::sqrt(variance) : declared;
+    };
+    noise_[0].measurement = noise_[1].measurement =
+        reckoned(parameters_.pose_sigma, kFloorShare * parameters_.gate_floor, position);
+    noise_[kHeading].measurement =
+        reckoned(parameters_.heading_sigma, kHeadingFloor, meters_[kHeading].variance());
+  }
+  measured_before_ = true;
+  last_measured_ = measured;
+  applied_ = {};
 }
 
 PoseObserver::Triple PoseObserver::innovation(const Triple& measured, const Triple& from) const {
@@ -113,6 +142,7 @@ void PoseObserver::apply(const Triple& innovation) {
 
 MeasurementOutcome PoseObserver::reject(const Triple& measured) {
   ++outliers_in_a_row_;
+  measured_before_ = false;  // it says nothing of noise
   // A mean of n and one more measurement differ with variance (1 + 1/n) of a measurement.
   const Triple difference = innovation(measured, outlier_mean_);
   Triple mean_variance{};

@@ -1,7 +1,8 @@
 // The pose observer (eq. 17): the robot's pose and the disturbance of its velocity, from measured poses and
 // the commanded motion. Run it at the rate of the measurements and feed it the command as applied, after
-// saturation. With exact measurements (sigma 0) the default observer reports the measurement itself. Frame:
-// world.
+// saturation. With exact measurements (sigma 0) the default observer reports the measurement itself, unless
+// they turn out to be clearly noisier than was declared: then it reckons with the noise that they show.
+// Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +10,7 @@
 #include <array>
 
 #include "spf/localisation/axis_filter.hpp"
+#include "spf/localisation/noise_meter.hpp"
 #include "spf/localisation/observer_parameters.hpp"
 #include "spf/math/pose2.hpp"
 
@@ -54,6 +56,7 @@ class PoseObserver {
   void start(const Triple& measured);
   [[nodiscard]] Triple innovation(const Triple& measured, const Triple& from) const;
   [[nodiscard]] bool within_gate(const Triple& innovation, const Triple& variance) const;
+  void learn_noise(const Triple& measured);
   void apply(const Triple& innovation);
   MeasurementOutcome reject(const Triple& measured);
   [[nodiscard]] bool is_sensor_jump(const Triple& jump) const;
@@ -64,6 +67,11 @@ class PoseObserver {
   std::array<AxisFilter, 3> axes_;
   bool started_ = false;
   double since_measurement_ = 0.0;  // [s]
+  // The noise that measurements show: by what they differ from the one before and the motion applied since.
+  std::array<NoiseMeter, 3> meters_;
+  Triple last_measured_{};
+  Triple applied_{};  // [m, m, rad] since then
+  bool measured_before_ = false;
   // Consecutive outliers: their mean, propagated with the commanded motion, while they agree.
   Triple outlier_mean_{};
   int agreeing_outliers_ = 0;

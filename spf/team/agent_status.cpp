@@ -38,6 +38,8 @@ const char* to_string(StopCause cause) {
       return "no plan";
     case StopCause::stale_plan:
       return "stale plan";
+    case StopCause::stuck:
+      return "stuck";
     case StopCause::far_from_plan:
       return "far from its plan";
     case StopCause::in_the_way:

@@ -30,6 +30,7 @@ enum class StopCause {
   no_obstacles,        ///< likewise no report of moving obstacles
   no_plan,             ///< the controller has none yet
   stale_plan,          ///< no word of the planner for too long
+  stuck,               ///< does not move as it is told, or gets no farther
   far_from_plan,
   in_the_way,      ///< the guard holds it before what its scanner shows
   control_failed,  ///< the controller had no answer

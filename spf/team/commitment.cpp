@@ -7,6 +7,11 @@
 #include "spf/planning/clearance.hpp"
 
 namespace spf {
+namespace {
+
+constexpr double kStandingShare = 0.1;  // [1] of the distance at which a plan starts anew
+
+}  // namespace
 
 Commitment::Commitment(const AgentParameters& parameters, const Pose2& start, double time)
     : heading_mode_{parameters.heading_mode},
@@ -68,6 +73,16 @@ bool Commitment::brake(double time) {
   const FlatState head = trajectory_.state(time);
   trajectory_ = braking_trajectory(head, trajectory_.heading().state(time), time, robot_);
   braking_ = true;
+  return true;
+}
+
+bool Commitment::stand_where(const StateEstimate& estimate, double time) {
+  const Pose2& pose = estimate.pose_world;
+  const double limit =
+      std::max(kStandingShare * reanchor_distance_, 4.0 * std::sqrt(estimate.position_variance));
+  if (!estimate.valid || (pose.position_world - trajectory_.position(time)).norm() <= limit) return false;
+  trajectory_ = Trajectory::standing(pose.position_world, time, 1.0, HeadingProfile{pose.heading});
+  tracking_variance_ = 0.0;
   return true;
 }
 

@@ -31,6 +31,10 @@ class Commitment {
   /// Brakes from the trajectory, unless it is a braking one already. True when a new one began.
   bool brake(double time);
 
+  /// For a robot that is kept from moving and follows no trajectory, not even a braking one: stands from now
+  /// on where it is, when that is clearly elsewhere. Requires braking(). True when it was.
+  bool stand_where(const StateEstimate& estimate, double time);
+
   [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
   /// The trajectory leads to rest (or aside), since there was no plan.
   [[nodiscard]] bool braking() const { return braking_; }

@@ -213,5 +213,20 @@ TEST(CommitmentHeading, KeepsStillWhileItsMotionSaysNothing) {
   EXPECT_NEAR(commitment.trajectory().heading().state(20.0).heading, 0.3, 1e-9);
 }
 
+TEST_F(CommitmentTest, ARobotThatIsHeldStandsWhereItIsAndNotWhereItsBrakingLeads) {
+  set_out();
+  ASSERT_TRUE(commitment.brake(2.0));
+  const double near = 0.09 * TeamParameters{}.reanchor_distance;
+  const Eigen::Vector2d there = commitment.trajectory().position(2.1);
+  EXPECT_FALSE(commitment.stand_where(estimate_at(there + Eigen::Vector2d{0.0, near}), 2.1));
+  EXPECT_FALSE(commitment.stand_where(StateEstimate{}, 2.1));
+  EXPECT_TRUE(commitment.stand_where(estimate_at({0.5, 0.0}), 2.1));
+  EXPECT_TRUE(commitment.braking());
+  EXPECT_EQ(commitment.trajectory().position(2.1), (Eigen::Vector2d{0.5, 0.0}));
+  EXPECT_EQ(commitment.trajectory().position(9.0), (Eigen::Vector2d{0.5, 0.0}));
+  EXPECT_NEAR(commitment.trajectory().heading().state(9.0).heading, 0.4, 1e-12);
+  EXPECT_FALSE(commitment.stand_where(estimate_at({0.5, 0.0}), 2.2));
+}
+
 }  // namespace
 }  // namespace spf

@@ -29,7 +29,7 @@ struct RobotAgent::Implementation {
   void reconfigure(const AgentParameters& changed);
   std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state, StopCause stop,
                                         const std::optional<Hold>& hold);
-  void brake(double now);
+  void brake(double now, const std::optional<StateEstimate>& held_at);
   void make_plan(double now, const std::optional<StateEstimate>& state, const std::optional<Hold>& hold);
   [[nodiscard]] StandCause standing_cause(double now, const std::optional<Hold>& hold) const;
   [[nodiscard]] double position_sigma(const std::optional<StateEstimate>& state) const;
@@ -87,15 +87,18 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
   if (stop == StopCause::none)
     make_plan(now, state, hold);
   else
-    brake(now);
+    brake(now, stop == StopCause::stuck ? state : std::nullopt);
   // 3. Say how it stands, to the host and to the peers.
   announcement.update(now,
                       {commitment.trajectory(), commitment.braking(), goal, stop, standing_cause(now, hold)});
   return announcement.message(now, next_plan_time, commitment.trajectory(), position_sigma(state));
 }
 
-void RobotAgent::Implementation::brake(double now) {
-  if (!commitment.brake(now)) return;
+/// `held_at`: where a robot is that does not move as it is told, nor will brake as it is told.
+void RobotAgent::Implementation::brake(double now, const std::optional<StateEstimate>& held_at) {
+  bool anew = commitment.brake(now);
+  if (held_at) anew = commitment.stand_where(*held_at, now) || anew;
+  if (!anew) return;
   result.clear();
   result.outcome = PlanOutcome::unsafe;
   result.trajectory = commitment.trajectory();

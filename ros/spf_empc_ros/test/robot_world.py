@@ -38,6 +38,8 @@ class Robot:
         self.odom_frame, self.base_frame = "map", "robot%d/base_link" % number
         self.map_to_odom = (0.0, 0.0, 0.0)  # x, y, heading of the odometry's frame, told by tf unless it is the map's
         self.distort = lambda x, y: (x, y)
+        self.held = False  # by somebody: its wheels spin
+        self.largest_speed = self.largest_change = 0.0  # [m/s] of the commands, and from one to the next
         self.last = {}  # stamp of the last message of each sensor
         self.command, self.command_time = Twist(), 0.0
         self.speeds = []  # (stamp [s], commanded speed [m/s]) of every control tick
@@ -77,6 +79,10 @@ class Robot:
 
     # ---- what it is told, and tells
     def on_command(self, message):
+        before = self.command
+        self.largest_speed = max(self.largest_speed, math.hypot(message.linear.x, message.linear.y))
+        self.largest_change = max(self.largest_change, math.hypot(message.linear.x - before.linear.x,
+                                                                  message.linear.y - before.linear.y))
         self.command, self.command_time = message, time.monotonic()
 
     def on_wheels(self, message):
@@ -96,6 +102,8 @@ class Robot:
     def move(self, dt):
         if time.monotonic() - self.command_time > BASE_TIMEOUT:
             self.command = Twist()
+        if self.held:
+            return
         c, s = math.cos(self.heading), math.sin(self.heading)
         self.x += dt * (c * self.command.linear.x - s * self.command.linear.y)
         self.y += dt * (s * self.command.linear.x + c * self.command.linear.y)
