@@ -180,11 +180,13 @@ void SimulatorNode::publish_poses() {
 }
 
 void SimulatorNode::publish_observations() {
+  using spf::sim::DetectionQuality;
+  const bool reports = config_.scenario.simulation.sensing.detections != DetectionQuality::scan;
   for (int i = 0; i < count(); ++i) {
     const Robot& robot = robots_[static_cast<std::size_t>(i)];
     if (!world_.robots()[static_cast<std::size_t>(i)].active()) continue;
     world_.observe(i, observation_);
-    if (!dropped(FaultyTopic::obstacles, i))
+    if (reports && !dropped(FaultyTopic::obstacles, i))
       robot.obstacles.publish(obstacles_message(observation_.detections, stamp()));
     if (!dropped(FaultyTopic::scan, i))
       robot.scan.publish(

@@ -39,6 +39,7 @@ class Robot:
         self.map_to_odom = (0.0, 0.0, 0.0)  # x, y, heading of the odometry's frame, told by tf unless it is the map's
         self.distort = lambda x, y: (x, y)
         self.held = False  # by somebody: its wheels spin
+        self.walkers = []  # (radius [m], function of the time [s] that gives x, y): what its scanner meets
         self.largest_speed = self.largest_change = 0.0  # [m/s] of the commands, and from one to the next
         self.last = {}  # stamp of the last message of each sensor
         self.command, self.command_time = Twist(), 0.0
@@ -126,7 +127,8 @@ class Robot:
         if tick % 5 == 0 and self.localised and self.odom_frame != "map":
             self.tell_place(stamp)
         if tick % 10 == 0 and self.scan_on:
-            scan = free_scan(stamp, self.number)
+            scan = free_scan(stamp, self.number, 360 if self.walkers else 90)
+            self.meet_walkers(scan)
             scan.header.frame_id = self.base_frame
             self.scan.publish(scan)
             self.last["scan"] = stamp.to_sec()
@@ -136,6 +138,17 @@ class Robot:
             self.obstacles.publish(message)
             self.last["obstacles"] = stamp.to_sec()
 
+    def meet_walkers(self, scan):
+        for radius, place in self.walkers:
+            x, y = place(scan.header.stamp.to_sec())
+            dx, dy = x - self.x, y - self.y
+            for i, before in enumerate(scan.ranges):
+                angle = self.heading + scan.angle_min + i * scan.angle_increment
+                along = dx * math.cos(angle) + dy * math.sin(angle)
+                inside = radius * radius - (dx * dx + dy * dy - along * along)
+                if along > 0.0 and inside >= 0.0:
+                    reading = along - math.sqrt(inside)
+                    scan.ranges[i] = min(before, reading if reading < scan.range_max else float("inf"))
 
     def tell_place(self, stamp):
         """What a localisation tells: where the odometry's frame is in the map."""
