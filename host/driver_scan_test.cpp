@@ -15,12 +15,12 @@
 namespace spf::host {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::infinity();
+constexpr double kNoWall = std::numeric_limits<double>::infinity();
 
 /// A room of this body: what a beam from a place in a direction meets [m].
 double range_in_room(const Eigen::Vector2d& from, double angle) {
   const Eigen::Vector2d way{std::cos(angle), std::sin(angle)};
-  double range = kNothing;  // walls at x = 2, y = 3, x = -4, y = -5: no two alike
+  double range = kNoWall;  // walls at x = 2, y = 3, x = -4, y = -5: no two alike
   if (way.x() > 1e-9) range = std::min(range, (2.0 - from.x()) / way.x());
   if (way.y() > 1e-9) range = std::min(range, (3.0 - from.y()) / way.y());
   if (way.x() < -1e-9) range = std::min(range, (-4.0 - from.x()) / way.x());
@@ -38,7 +38,7 @@ RangeScan full_turn(int beams) {
   scan.angle_min = -kPi;
   scan.angle_increment = 2.0 * kPi / beams;
   scan.max_range = 20.0;
-  scan.ranges.assign(static_cast<std::size_t>(beams), kNothing);
+  scan.ranges.assign(static_cast<std::size_t>(beams), kNoWall);
   return scan;
 }
 
@@ -146,12 +146,12 @@ TEST(DriverScan, ReadsWhatItsDriverMeansByNothingThere) {
   };
   for (const NoReturn any : {NoReturn::infinite, NoReturn::zero, NoReturn::nan, NoReturn::any}) {
     EXPECT_EQ(read(3.0, any), 3.0);
-    EXPECT_EQ(read(kNothing, any), kNothing);
-    EXPECT_EQ(read(65.533, any), kNothing);
-    EXPECT_EQ(read(8.0, any), kNothing);  // cut off
+    EXPECT_EQ(read(kNoWall, any), kNoWall);
+    EXPECT_EQ(read(65.533, any), kNoWall);
+    EXPECT_EQ(read(8.0, any), kNoWall);  // cut off
     EXPECT_TRUE(std::isnan(read(0.05, any)));
     EXPECT_TRUE(std::isnan(read(-1.0, any)));
-    EXPECT_TRUE(std::isnan(read(-kNothing, any)));
+    EXPECT_TRUE(std::isnan(read(-kNoWall, any)));
     EXPECT_EQ(std::isnan(read(0.0, any)), any != NoReturn::zero && any != NoReturn::any);
     EXPECT_EQ(std::isnan(read(nan, any)), any != NoReturn::nan && any != NoReturn::any);
   }
@@ -168,7 +168,7 @@ TEST(PerceptionHost, TakesZeroForNothingThereWhereItIsTold) {
     const std::optional<SensedWorld> sensed = host.add_scan(10.0, driver, 10.0);
     ASSERT_EQ(sensed.has_value(), no_return == NoReturn::zero);
     if (sensed) {
-      EXPECT_EQ(sensed->observation.scan->ranges[7], kNothing);
+      EXPECT_EQ(sensed->observation.scan->ranges[7], kNoWall);
       continue;
     }
     EXPECT_EQ(host.last_verdict(), ObservationVerdict::blind);
