@@ -113,17 +113,13 @@ void Rules::check_drive() {
   const Eigen::Matrix3d& wheels = drive.kinematics().wheel_from_body();
   const Named rim{"robot.max_wheel_speed", robot_.max_wheel_speed, "m/s"};
   const Named torque{"robot.max_wheel_torque", robot_.max_wheel_torque, "N m"};
-  // A wheel is strained most by a motion along its own rim.
+  // A wheel turns fastest in a motion along its own rim.
   double speed = std::numeric_limits<double>::infinity();
-  double acceleration = speed;
-  for (int wheel = 0; wheel < 3; ++wheel) {
-    const Eigen::Vector2d along = wheels.row(wheel).head<2>();
-    speed = std::min(speed, rim.value / along.norm());
-    acceleration = std::min(acceleration, drive.max_acceleration_along(along));
-  }
+  for (int wheel = 0; wheel < 3; ++wheel)
+    speed = std::min(speed, rim.value / wheels.row(wheel).head<2>().norm());
   warn_above(max_speed(), speed, rim, "the wheels reach in every direction");
-  warn_above({"robot.max_acceleration", robot_.max_acceleration, "m/s^2"}, acceleration, torque,
-             "the wheels give in every direction, so that the robot brakes later than it plans");
+  warn_above({"robot.max_acceleration", robot_.max_acceleration, "m/s^2"}, drive.max_acceleration_anywhere(),
+             torque, "the wheels give in every direction, so that the robot brakes later than it plans");
   warn_above({"robot.max_yaw_rate", robot_.max_yaw_rate, "rad/s"},
              rim.value / wheels.col(2).cwiseAbs().maxCoeff(), rim, "the wheels reach");
   warn_above({"robot.max_yaw_acceleration", robot_.max_yaw_acceleration, "rad/s^2"},

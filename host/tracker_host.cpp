@@ -42,7 +42,7 @@ TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostP
       watchdog_{host, agent.team.stale_time},
       relies_on_scan_{host.relies_on_scan} {
   refuse_contradictions(contradictions(agent, host));
-  if (host.guard.enabled) guard_.emplace(host.guard, agent, host.clock_error);
+  if (host.guard.enabled) guard_ = std::make_unique<ScanGuard>(host.guard, agent, host.clock_error);
 }
 
 void TrackerHost::note_pose(PoseVerdict verdict) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "host/health.hpp"
@@ -66,7 +67,7 @@ class TrackerHost {
   [[nodiscard]] std::uint32_t plans_refused() const { return plans_refused_; }
   [[nodiscard]] double max_wheel_speed() const { return kinematics_.max_wheel_speed(); }  ///< [m/s]
   /// Null when it is switched off.
-  [[nodiscard]] const ScanGuard* guard() const { return guard_ ? &*guard_ : nullptr; }
+  [[nodiscard]] const ScanGuard* guard() const { return guard_.get(); }
 
  private:
   [[nodiscard]] StopCause stop_cause(double now, const Localiser& localiser) const;
@@ -85,7 +86,7 @@ class TrackerHost {
   CommandLimiter limiter_;
   Watchdog watchdog_;
   bool relies_on_scan_;
-  std::optional<ScanGuard> guard_;
+  std::unique_ptr<ScanGuard> guard_;  // null: it is off
   TrajectoryMessage plan_;
   bool has_plan_ = false;
   bool after_jump_ = false;  // of the clock, and nothing new since

@@ -68,7 +68,7 @@ double marched(const Scenario& scenario, const std::vector<SeenDisc>& discs, con
   const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
   for (double range = 0.0; range <= scenario.simulation.sensing.range; range += 1e-3) {
     const Eigen::Vector2d position = origin + range * direction;
-    if (depth_inside(position, *scenario.border) < 0.0) return range;
+    if (scenario.border && depth_inside(position, *scenario.border) < 0.0) return range;
     for (const Box& box : scenario.boxes)
       if (distance_to_box(position, box) == 0.0) return range;
     for (const Disc& disc : scenario.discs)

@@ -7,7 +7,6 @@
 #include "spf/perception/index.hpp"
 
 namespace spf {
-namespace {}  // namespace
 
 ScanPerception::ScanPerception(const PerceptionParameters& parameters)
     : parameters_{validated(parameters)},
