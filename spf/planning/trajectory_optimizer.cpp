@@ -81,8 +81,9 @@ double TrajectoryOptimizer::evaluate(const Lbfgs::Point& decision, Lbfgs::Gradie
 
 void TrajectoryOptimizer::add_node_terms() {
   const CostWeights& weights = planner_.weights;
-  LimitsCost{weights.limits * problem_.limits_factor, std::min(robot_.max_speed, problem_.max_speed),
-             robot_.max_acceleration, robot_.max_jerk}
+  LimitsCost{weights.limits * problem_.limits_factor,
+             kSpeedOnset * std::min(robot_.max_speed, problem_.max_speed),
+             kAccelerationOnset * robot_.max_acceleration, robot_.max_jerk}
       .add(nodes_);
   SpacingCost{weights.spacing, planner_.piece_length / planner_.nodes_per_piece}.add(nodes_);
   const StaticCost surface{weights.static_hard * problem_.static_factor,
