@@ -40,6 +40,7 @@ RobotFile default_robot_file(const MethodChoice& method, const RobotParameters& 
   file.method = method;
   file.robot = robot;
   file.agent = with_method(defaults_for(robot), method.method());
+  file.agent.perception.enabled = true;
   file.host = scaled(file.host, RobotScale{robot});
   return file;
 }

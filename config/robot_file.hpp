@@ -40,7 +40,7 @@ struct RobotFile {
   }
 };
 
-/// The defaults for a method and a robot: many follow the robot (ScaledUnit).
+/// The defaults for a method and a robot: many follow the robot (ScaledUnit). Its scans tell of what moves.
 [[nodiscard]] RobotFile default_robot_file(const MethodChoice& method, const RobotParameters& robot);
 
 /// Throws InputError with every problem, contradictions that a robot could not drive with among them. An

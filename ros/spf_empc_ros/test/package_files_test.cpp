@@ -10,9 +10,7 @@ namespace {
 const std::string kConfig = std::string{SPF_EMPC_ROS_DIR} + "/config/";
 
 TEST(RobotYaml, IsTheRobotOfTheScenarios) {
-  spf::RobotFile expected;
-  expected.method = "space_time";
-  expected.agent = spf::with_method(expected.agent, expected.method.method());
+  const spf::RobotFile expected = spf::default_robot_file({"space_time"}, {});
   EXPECT_EQ(spf::to_yaml_text(spf::read_robot_file(kConfig + "robot.yaml")), spf::to_yaml_text(expected));
   const spf::RunConfiguration config = spf::read_run_configuration(kConfig + "fleet.yaml");
   EXPECT_TRUE(spf::read_robot_file(kConfig + "robot.yaml").warnings.empty());

@@ -13,10 +13,7 @@ from spf_empc_msgs.msg import ObstacleTracks
 
 from robot_world import Robot, World, drive, wait_until
 
-CONFIG = """\
-agent: {perception: {enabled: true}}
-host: {relies_on_obstacles: false}
-"""
+CONFIG = "host: {relies_on_obstacles: false}\n"
 ROBOT, WALKER = 0.3, 0.25  # [m] radii
 SPEED = 0.6  # [m/s] of the walker
 
