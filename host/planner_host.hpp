@@ -94,8 +94,9 @@ class PlannerHost {
   void cancel();
   void set_switches(const Switches& switches) { switches_ = switches; }
   /// RobotAgent::reconfigure, also of the agents of later starts. The gates, the watchdog and the controller
-  /// keep to the limits that they began with, so max_speed is to be no higher than theirs. Throws
-  /// std::invalid_argument as the constructor does; all then stays as it was.
+  /// keep to the limits that they began with, so max_speed is to be no higher than theirs; the tracker is
+  /// told of a lower one (TrackerHost::set_speed_limit). Throws std::invalid_argument as the constructor
+  /// does; all then stays as it was.
   void reconfigure(const AgentParameters& agent);
   /// Every candidate of a plan is kept for display from the next start on (allocates).
   void set_keep_candidates(bool keep) { keep_candidates_ = keep; }

@@ -56,7 +56,10 @@ void RobotHost::set_switches(const Switches& switches) {
 
 const PlannerOutput& RobotHost::plan(double now) {
   const PlannerOutput& output = planner_.step(tell_time(now), localiser_of_plan());
-  if (output.planned && motion_ == Motion::by_wheels) tracker_.add_plan(output.plan, clock_.now());
+  if (output.planned && motion_ == Motion::by_wheels) {
+    tracker_.set_speed_limit(planner_.parameters().robot.max_speed);
+    tracker_.add_plan(output.plan, clock_.now());
+  }
   return output;
 }
 

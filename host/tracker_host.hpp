@@ -47,6 +47,8 @@ class TrackerHost {
 
   PlanVerdict add_plan(const TrajectoryMessage& message, double now);
   void set_switches(const Switches& switches) { switches_ = switches; }
+  /// [m/s] that the planner keeps to from now on (CommandLimiter::set_max_speed).
+  void set_speed_limit(double max_speed) { limiter_.set_max_speed(max_speed); }
   /// A scan, for the guard alone. False when it is refused (ScanGuard::add_scan), or there is no guard.
   bool add_scan(double time, const RangeScan& scan, const Pose2& sensor_in_body, double now);
   /// The host could not even read a plan.

@@ -22,11 +22,16 @@ Eigen::Vector3d rim_speeds(const OmniKinematics& kinematics, const Eigen::Vector
 
 CommandLimiter::CommandLimiter(const RobotParameters& robot, const OmniKinematics& kinematics, double period)
     : kinematics_{kinematics},
-      max_speed_{kSpeedSpare * validated(robot).max_speed},
+      largest_speed_{kSpeedSpare * validated(robot).max_speed},
+      max_speed_{largest_speed_},
       max_acceleration_{kAccelerationSpare * robot.max_acceleration},
       max_yaw_rate_{kSpeedSpare * robot.max_yaw_rate},
       max_yaw_acceleration_{kAccelerationSpare * robot.max_yaw_acceleration},
       period_{period} {}
+
+void CommandLimiter::set_max_speed(double max_speed) {
+  if (max_speed > 0.0) max_speed_ = std::min(kSpeedSpare * max_speed, largest_speed_);
+}
 
 Eigen::Vector3d CommandLimiter::limited(const Eigen::Vector3d& wanted, const Eigen::Vector3d& previous,
                                         double elapsed) const {

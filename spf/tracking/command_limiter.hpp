@@ -27,6 +27,10 @@ class CommandLimiter {
   [[nodiscard]] Eigen::Vector3d limited(const Eigen::Vector3d& wanted, const Eigen::Vector3d& previous,
                                         double elapsed) const;
 
+  /// [m/s] A limit of speed from now on, no higher than the robot's; what is not positive is ignored.
+  /// Commands beyond it are led back at the largest acceleration.
+  void set_max_speed(double max_speed);
+
   [[nodiscard]] double period() const { return period_; }  ///< [s]
 
   /// [1] of max_acceleration and max_yaw_acceleration: what is left to the controller to make up for errors
@@ -43,7 +47,8 @@ class CommandLimiter {
                                            const Eigen::Vector3d& to_body) const;
 
   OmniKinematics kinematics_;
-  double max_speed_;             // [m/s]
+  double largest_speed_;         // [m/s] the robot's own
+  double max_speed_;             // [m/s] now
   double max_acceleration_;      // [m/s^2]
   double max_yaw_rate_;          // [rad/s]
   double max_yaw_acceleration_;  // [rad/s^2]

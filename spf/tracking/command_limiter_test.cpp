@@ -144,6 +144,27 @@ TEST_F(LimiterTest, LeadsBackWhatIsBeyondTheLimits) {
   EXPECT_NEAR(last, robot.max_speed, 0.01 * robot.max_speed);
 }
 
+TEST_F(LimiterTest, ALowerLimitIsBrakedToAndLiftedAgain) {
+  Eigen::Vector3d command = wheels(1.0, 0.0, 0.0);
+  const Eigen::Vector3d wanted = command;
+  const auto speed_after = [&](double seconds) {
+    for (int tick = 0; tick < std::lround(seconds / kLimiterPeriod); ++tick)
+      command = limiter.limited(wanted, command, kLimiterPeriod);
+    return kinematics.twist_body(command).head<2>().norm();
+  };
+  limiter.set_max_speed(0.3);
+  const double braked = 0.5 * CommandLimiter::kAccelerationSpare * robot.max_acceleration;
+  EXPECT_NEAR(speed_after(0.5), 1.0 - braked, 1e-9);
+  EXPECT_NEAR(speed_after(1.0), 0.3 * CommandLimiter::kSpeedSpare, 1e-9);
+  for (const double nonsense : {0.0, -1.0, kNotANumber}) limiter.set_max_speed(nonsense);
+  EXPECT_NEAR(speed_after(1.0), 0.3 * CommandLimiter::kSpeedSpare, 1e-9);
+  limiter.set_max_speed(10.0);  // no higher than the robot's own
+  command = wheels(1.0, 0.0, 0.0);
+  const double own = CommandLimiter::kSpeedSpare * robot.max_speed;
+  EXPECT_LE(kinematics.twist_body(limiter.limited(wheels(1.02, 0.0, 0.0), command, kLimiterPeriod)).x(),
+            own + 1e-9);
+}
+
 TEST_F(LimiterTest, WhatIsNotANumberIsAWishToStand) {
   const Eigen::Vector3d previous = wheels(0.5, 0.0, 0.0);
   const Eigen::Vector3d braked =

@@ -48,7 +48,8 @@ TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const 
   estimate_ = node_.advertise<nav_msgs::Odometry>("estimate", 5);
   status_ = node_.advertise<spf_empc_msgs::TrackerStatus>("tracker_status", 20);
   subscribers_ = {node_.subscribe("odom", 20, &TrackerNode::on_pose, this, kNoDelay),
-                  node_.subscribe("trajectory", 5, &TrackerNode::on_plan, this, kNoDelay)};
+                  node_.subscribe("trajectory", 5, &TrackerNode::on_plan, this, kNoDelay),
+                  node_.subscribe("status", 2, &TrackerNode::on_planner, this, kNoDelay)};
   if (host_.tracker().guard() != nullptr)
     subscribers_.push_back(node_.subscribe("scan", 2, &TrackerNode::on_scan, this, kNoDelay));
   timer_ = node_.createTimer(ros::Duration{config_.agent.tracker.control_period},
@@ -88,6 +89,11 @@ void TrackerNode::on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory)
   if (verdict != spf::host::PlanVerdict::accepted)
     return refuse("trajectory", to_string(verdict), verdict == spf::host::PlanVerdict::late);
   observed_ = received->observed;
+}
+
+/// The limit of speed that its plans keep to now: commands keep to it as well.
+void TrackerNode::on_planner(const spf_empc_msgs::RobotStatus& status) {
+  host_.tracker().set_speed_limit(status.max_speed);
 }
 
 /// As it comes from the driver, for the guard: by no other node.

@@ -20,6 +20,9 @@ from tf2_msgs.msg import TFMessage
 
 HALF_LENGTH, HALF_WIDTH, CELL = 45.0, 4.0, 0.2  # [m] of the hall
 BASE_TIMEOUT = 0.3  # [s] after which a base stands without commands, as real ones do
+MAX_SPEED = 1.0  # [m/s] of config/robot.yaml
+MAX_CHANGE = 1.0 * 0.05  # [m/s] its largest acceleration, in a control period
+GUARD_MEMORY = 0.2  # [s] for which a change may still be the guard's, which alone may stop a robot harder
 
 
 def node_program(name):
@@ -40,7 +43,9 @@ class Robot:
         self.distort = lambda x, y: (x, y)
         self.held = False  # by somebody: its wheels spin
         self.walkers = []  # (radius [m], function of the time [s] that gives x, y): what its scanner meets
-        self.largest_speed = self.largest_change = 0.0  # [m/s] of the commands, and from one to the next
+        self.largest_speed = 0.0  # [m/s] of the commands
+        self.changes = []  # (time [s], change [m/s]) from one command to the next
+        self.guard_times = []  # at which the guard held a command back
         self.last = {}  # stamp of the last message of each sensor
         self.command, self.command_time = Twist(), 0.0
         self.speeds = []  # (stamp [s], commanded speed [m/s]) of every control tick
@@ -81,12 +86,19 @@ class Robot:
     # ---- what it is told, and tells
     def on_command(self, message):
         before = self.command
+        now = time.monotonic()
         self.largest_speed = max(self.largest_speed, math.hypot(message.linear.x, message.linear.y))
-        self.largest_change = max(self.largest_change, math.hypot(message.linear.x - before.linear.x,
-                                                                  message.linear.y - before.linear.y))
-        self.command, self.command_time = message, time.monotonic()
+        self.changes.append((now, math.hypot(message.linear.x - before.linear.x, message.linear.y - before.linear.y)))
+        self.command, self.command_time = message, now
+
+    def largest_change(self):
+        """[m/s] as seen from the body, whose heading the controller corrects a little at each tick."""
+        return max((change for now, change in self.changes
+                    if all(abs(now - guarded) > GUARD_MEMORY for guarded in self.guard_times)), default=0.0)
 
     def on_wheels(self, message):
+        if message.guard != WheelSpeeds.CLEAR:
+            self.guard_times.append(time.monotonic())
         if len(message.speeds) == 3:
             # Three wheels 120 degrees apart: the sum of squares is 3/2 of the squared speed without turning.
             self.speeds.append((message.header.stamp.to_sec(), math.sqrt(sum(v * v for v in message.speeds) / 1.5)))
@@ -214,8 +226,17 @@ class World:
                     self.least_distance = min(self.least_distance, math.hypot(one.x - other.x, one.y - other.y))
 
     def end(self):
+        """Ends everything; fails where a command has been beyond the limits, whatever the test was about."""
         self.ended = True
         self.thread.join()
+        self.end_nodes()
+        for robot in self.robots:
+            print("robot %d: %d commands, largest %.4f m/s, largest change %.4f m/s" % (
+                robot.number, len(robot.changes), robot.largest_speed, robot.largest_change()))
+            assert robot.largest_speed <= 1.01 * MAX_SPEED, robot.largest_speed
+            assert robot.largest_change() <= 1.1 * MAX_CHANGE, robot.largest_change()
+
+    def end_nodes(self):
         for robot in self.robots:
             for process in robot.processes.values():
                 if process.poll() is None:

@@ -8,6 +8,7 @@
 #include <ros/subscriber.h>
 #include <ros/timer.h>
 #include <sensor_msgs/LaserScan.h>
+#include <spf_empc_msgs/RobotStatus.h>
 #include <spf_empc_msgs/Trajectory.h>
 
 #include <optional>
@@ -37,6 +38,7 @@ class TrackerNode {
   void on_pose(const nav_msgs::Odometry::ConstPtr& odometry);
   void on_plan(const spf_empc_msgs::Trajectory::ConstPtr& trajectory);
   void on_scan(const sensor_msgs::LaserScan::ConstPtr& scan);
+  void on_planner(const spf_empc_msgs::RobotStatus& status);
   void step();
   void publish_command(const ros::Time& now, const spf::host::TrackerCommand& command);
   void publish_estimate(const ros::Time& now, const spf::host::TrackerCommand& command);
