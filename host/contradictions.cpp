@@ -184,7 +184,7 @@ void Rules::check_observations() {
 }
 
 void Rules::check_sight() {
-  if (!host_.relies_on_obstacles && !agent_.perception.enabled)
+  if (!host_.relies_on_obstacles && !agent_.perception.enabled && !conditions_.others_report)
     found_.push_back({Severity::warning, "agent.perception.enabled", "host.relies_on_obstacles", "false",
                       "together with host.relies_on_obstacles = false leaves nobody to tell of what moves"});
   const Named range{"sensing.range", conditions_.sensing_range, "m"};

@@ -20,6 +20,7 @@ struct OperatingConditions {
   double sensing_rate = std::numeric_limits<double>::infinity();   ///< [Hz] of scans and detections
   double pose_rate = std::numeric_limits<double>::infinity();      ///< [Hz]
   double computing_delay = 0.0;  ///< [s] that an observation is older when it is taken in
+  bool others_report = false;    ///< obstacles, whether the robot relies on that or not
   bool has_peers = false;
   double peer_sight = std::numeric_limits<double>::infinity();  ///< [m] within which it senses other robots
   double message_range = std::numeric_limits<double>::infinity();  ///< [m]

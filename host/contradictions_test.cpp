@@ -101,11 +101,19 @@ const std::vector<Conflict> kConflicts{
      "= 0.31 s is longer than agent.team.stale_time = 0.3 s: whatever the robot senses would be too old",
      [](TestedRobot& all) { all.conditions.computing_delay = 0.31; },
      [](TestedRobot& all) { all.conditions.computing_delay = 0.2; }},
+    {"agent.perception.enabled", Severity::warning,
+     "= false together with host.relies_on_obstacles = false leaves nobody to tell of what moves",
+     [](TestedRobot& all) { all.host.relies_on_obstacles = false; },
+     [](TestedRobot& all) {
+       all.host.relies_on_obstacles = false;
+       all.agent.perception.enabled = true;
+     }},
     {"sensing.rate", Severity::warning, "= 10 Hz lets observations grow 0.35 s old",
      [](TestedRobot& all) { all.conditions.computing_delay = 0.25; },
      [](TestedRobot& all) {
        all.conditions.computing_delay = 0.25;
        all.host.relies_on_scan = all.host.relies_on_obstacles = false;
+       all.agent.perception.enabled = true;
      }},
     // 0.3 m + 1 m/s * (0.1 + 0.1 + 0.05 + 0.05) s + 0.5 m.
     {"sensing.range", Severity::warning, "= 1.05 m is shorter than the 1.1 m that the robot needs to stop",
@@ -141,9 +149,9 @@ const std::vector<Conflict> kConflicts{
        all.agent.tracker.observer.pose_sigma = 0.01;
        all.host.largest_peer_sigma = 0.01;
      }},
-    {"robot.max_speed", Severity::warning, "= 1 m/s goes beyond host.largest_peer_speed = 1.04 m/s",
-     [](TestedRobot& all) { all.host.largest_peer_speed = 1.04; },
-     [](TestedRobot& all) { all.host.largest_peer_speed = 1.06; }},
+    {"robot.max_speed", Severity::warning, "= 1 m/s goes beyond host.largest_peer_speed = 1.004 m/s",
+     [](TestedRobot& all) { all.host.largest_peer_speed = 1.004; },
+     [](TestedRobot& all) { all.host.largest_peer_speed = 1.006; }},
     // Twice the 1.1 m of one robot.
     {"radio.range", Severity::warning, "within the 2.2 m that two of them need to stop",
      [](TestedRobot& all) {

@@ -18,7 +18,7 @@ Scenario sensed_swap() {
   scenario.simulation.pose_noise.position_sigma = 0.02;
   scenario.simulation.pose_noise.heading_sigma = 0.01;
   scenario.simulation.trial.after_contact = AfterContact::go_on;
-  scenario.simulation.trial.time_limit = 8.0;
+  scenario.simulation.trial.time_limit = 16.0;
   return scenario;
 }
 
@@ -110,7 +110,7 @@ std::vector<LoggedTick> CompositionTest::ticks_;
 
 TEST_F(CompositionTest, TheTrialWasWorthPlaying) {
   const Commands commands = simulated();
-  ASSERT_EQ(commands.size(), 160U);  // 8 s at 20 Hz
+  ASSERT_EQ(commands.size(), 320U);  // 16 s at 20 Hz
   double fastest = 0.0;
   for (const Eigen::Vector3d& command : commands) fastest = std::max(fastest, command.norm());
   EXPECT_GT(fastest, 0.5);

@@ -57,6 +57,7 @@ host::OperatingConditions operating_conditions(const Scenario& scenario) {
   conditions.sensing_rate = sensing.rate;
   if (conditions.by_wheels) conditions.pose_rate = simulation.pose_noise.rate;
   conditions.computing_delay = simulation.trial.computing_delay;
+  conditions.others_report = sensing.detections != DetectionQuality::scan;
   conditions.has_peers = scenario.robots.size() > 1;
   conditions.peer_sight = sensing.peer_detection_range;
   const bool scans = sensing.map == MapKnowledge::sensed || sensing.detections == DetectionQuality::scan;

@@ -56,12 +56,12 @@ struct CostWeights {
 
 /// Shares of max_speed and max_acceleration [1] at which they begin to cost: the penalty gives in a little where
 /// time presses, and is to give in within the limits.
-inline constexpr double kSpeedOnset = 0.99;
+inline constexpr double kSpeedOnset = 0.975;
 inline constexpr double kAccelerationOnset = 0.95;
 /// Accepted excess of a plan over max_speed and max_acceleration [1]: less than commands may exceed them
 /// (CommandLimiter), so that a robot can follow it.
 inline constexpr double kSpeedTolerance = 0.005;
-inline constexpr double kAccelerationTolerance = 0.02;
+inline constexpr double kAccelerationTolerance = 0.05;
 
 struct PlannerParameters {
   DynamicModel dynamic_model = DynamicModel::probability_field;

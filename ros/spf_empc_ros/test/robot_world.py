@@ -21,7 +21,8 @@ from tf2_msgs.msg import TFMessage
 HALF_LENGTH, HALF_WIDTH, CELL = 45.0, 4.0, 0.2  # [m] of the hall
 BASE_TIMEOUT = 0.3  # [s] after which a base stands without commands, as real ones do
 MAX_SPEED = 1.0  # [m/s] of config/robot.yaml
-MAX_CHANGE = 1.0 * 0.05  # [m/s] its largest acceleration, in a control period
+PERIOD = 0.05  # [s] of control
+MAX_CHANGE = 1.0 * PERIOD  # [m/s] by its largest acceleration
 GUARD_MEMORY = 0.2  # [s] for which a change may still be the guard's, which alone may stop a robot harder
 
 
@@ -88,11 +89,20 @@ class Robot:
         before = self.command
         now = time.monotonic()
         self.largest_speed = max(self.largest_speed, math.hypot(message.linear.x, message.linear.y))
-        self.changes.append((now, math.hypot(message.linear.x - before.linear.x, message.linear.y - before.linear.y)))
+        self.changes.append((now, self.change(before, message, now - self.command_time)))
         self.command, self.command_time = message, now
 
+    @staticmethod
+    def change(before, after, seconds):
+        """[m/s] from one command to the next: in the map, or as seen from the body that turns, where that is less."""
+        turn = 0.5 * (before.angular.z + after.angular.z) * min(seconds, 2.0 * PERIOD)
+        c, s = math.cos(turn), math.sin(turn)
+        x, y = c * after.linear.x - s * after.linear.y, s * after.linear.x + c * after.linear.y
+        return min(math.hypot(x - before.linear.x, y - before.linear.y),
+                   math.hypot(after.linear.x - before.linear.x, after.linear.y - before.linear.y))
+
     def largest_change(self):
-        """[m/s] as seen from the body, whose heading the controller corrects a little at each tick."""
+        """[m/s] of all commands but those that the guard held back."""
         return max((change for now, change in self.changes
                     if all(abs(now - guarded) > GUARD_MEMORY for guarded in self.guard_times)), default=0.0)
 
