@@ -28,7 +28,7 @@ spf::sim::Scenario sensed_swap() {
   scenario.simulation.pose_noise.position_sigma = 0.02;
   scenario.simulation.pose_noise.heading_sigma = 0.01;
   scenario.simulation.trial.after_contact = AfterContact::go_on;
-  scenario.simulation.trial.time_limit = 6.0;
+  scenario.simulation.trial.time_limit = 16.0;
   return scenario;
 }
 
@@ -146,7 +146,7 @@ class CompositionTest : public ::testing::Test {
 
 TEST_F(CompositionTest, ThroughMessagesARobotCommandsTheSame) {
   const Commands commands = without_ros();
-  ASSERT_EQ(commands.size(), 120U);  // 6 s at 20 Hz
+  ASSERT_EQ(commands.size(), 320U);  // 16 s at 20 Hz
   double fastest = 0.0;
   for (const Eigen::Vector3d& command : commands) fastest = std::max(fastest, command.norm());
   EXPECT_GT(fastest, 0.5);

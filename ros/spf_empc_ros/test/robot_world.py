@@ -19,7 +19,7 @@ from spf_empc_msgs.msg import ObstacleTracks, RobotStatus, TrackerStatus, WheelS
 from tf2_msgs.msg import TFMessage
 
 HALF_LENGTH, HALF_WIDTH, CELL = 45.0, 4.0, 0.2  # [m] of the hall
-BASE_TIMEOUT = 0.3  # [s] after which a base stands without commands, as real ones do
+BASE_TIMEOUT = 0.5  # [s] after which a base stands without commands, as real ones do (host.command_silence)
 MAX_SPEED = 1.0  # [m/s] of config/robot.yaml
 PERIOD = 0.05  # [s] of control
 MAX_CHANGE = 1.0 * PERIOD  # [m/s] by its largest acceleration
