@@ -64,5 +64,5 @@ class Limits(unittest.TestCase):
 if __name__ == "__main__":
     if shutil.which("ctags") is None:
         print("ctags is not installed (script/setup check)", file=sys.stderr)
-        sys.exit(77)
+        sys.exit(check_limits.no_tool())
     unittest.main()
