@@ -1,33 +1,24 @@
 #include "spf/team/guide_policy.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "spf/team/schedule.hpp"
 
 namespace spf {
-namespace {
-
-CostToGoParameters for_robot(const AgentParameters& parameters) {
-  CostToGoParameters guide = parameters.guide;
-  guide.clearance += parameters.robot.radius;
-  return guide;
-}
-
-}  // namespace
-
 GuidePolicy::GuidePolicy(const AgentParameters& parameters, bool approaches_cut_off_goal, double time)
     : approaches_cut_off_goal_{approaches_cut_off_goal},
       goal_tolerance_{parameters.team.goal_tolerance},
-      cost_to_go_{for_robot(parameters)},
+      cost_to_go_{parameters.guide, parameters.robot.radius},
       next_time_{time} {}
 
 void GuidePolicy::reconfigure(const AgentParameters& parameters, bool approaches_cut_off_goal) {
   approaches_cut_off_goal_ = approaches_cut_off_goal;
   goal_tolerance_ = parameters.team.goal_tolerance;
-  const CostToGoParameters wanted = for_robot(parameters);
-  const CostToGoParameters& present = cost_to_go_.parameters();
-  if (wanted.clearance == present.clearance && wanted.resolution == present.resolution) return;
-  cost_to_go_ = CostToGo{wanted};
+  CostToGo wanted{parameters.guide, parameters.robot.radius};
+  if (wanted.clearance() == cost_to_go_.clearance() && wanted.resolution() == cost_to_go_.resolution())
+    return;
+  cost_to_go_ = std::move(wanted);
   goal_.reset();
 }
 
@@ -59,7 +50,7 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
     const int steps = std::max(1, static_cast<int>(leg.norm() / step));
     for (int k = 1; k <= steps; ++k) {
       const Eigen::Vector2d position = corners_[i - 1] + leg * (static_cast<double>(k) / steps);
-      if (map.distance(position) < cost_to_go_.parameters().clearance) return last;
+      if (map.distance(position) < cost_to_go_.clearance()) return last;
       last = position;
     }
   }
@@ -69,8 +60,7 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
 bool GuidePolicy::way_clear(const OccupancyMap& map, const Eigen::Vector2d& here) {
   if (!cost_to_go_.ready() || cost_to_go_.outcome() == CostToGoOutcome::unreachable) return false;
   cost_to_go_.shortest_path(here, corners_);
-  const double clearance =
-      cost_to_go_.parameters().clearance - 0.5 * map.frame().resolution;  // it grazes its corners
+  const double clearance = cost_to_go_.clearance() - 0.5 * map.frame().resolution;  // it grazes its corners
   for (std::size_t i = 1; i < corners_.size(); ++i)
     if (!map.segment_clear(corners_[i - 1], corners_[i], clearance)) return false;
   return true;
