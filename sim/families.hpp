@@ -101,8 +101,6 @@ struct FamilySetup {
   }
 };
 
-inline constexpr std::uint64_t kDefaultSeed = 20240501;
-
 /// The protocol's numbers for a family (docs/protocol.md, Scenes).
 [[nodiscard]] FamilySetup family_setup(Family family);
 
