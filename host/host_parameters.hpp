@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/guard_parameters.hpp"
+#include "host/map_grain.hpp"
 #include "spf/math/parameters.hpp"
 
 namespace spf {
@@ -49,9 +50,8 @@ struct HostParameters {
   double largest_peer_radius = 2.0;     ///< [m] messages of larger peers are malformed
   double largest_peer_sigma = 1.0;      ///< [m] likewise of those who do not know where they are
   double largest_peer_speed = 10.0;     ///< [m/s] likewise of faster ones
-  double grid_size = 40.0;      ///< [m] side of the sensed map, around the start, where no map is given
-  double map_resolution = 0.1;  ///< [m] node distance of the map, given or sensed
-  double map_reach = 2.0;       ///< [m] up to which its distances are exact
+  double grid_size = 40.0;  ///< [m] side of the sensed map, around the start, where no map is given
+  MapGrain map_grain;
   GuardParameters guard;
 
   template <class Self, class Visitor>
@@ -96,10 +96,7 @@ struct HostParameters {
           "messages of faster peers are malformed");
     visit("grid_size", self.grid_size, kMetresByStopping, Range{1.0, 1000.0},
           "side of the sensed map, around the start, where no map is given");
-    visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
-          "node distance of the map; a given one with coarser cells keeps those");
-    visit("map_reach", self.map_reach, kMetresBySize, Range{0.01, 100.0},
-          "distances to static surfaces are exact up to here");
+    MapGrain::visit_fields_as("map_resolution", "map_reach", self.map_grain, visit);
     visit.group("guard", self.guard);
   }
 };

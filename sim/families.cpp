@@ -278,8 +278,8 @@ void make_platform(FamilySetup& setup) {
   setup.robot.max_wheel_torque = 0.005;
   setup.simulation.noise = {NoiseModel::walk, 0.25, 0.01, 0.25};
   setup.simulation.sensing.map = MapKnowledge::sensed;
-  setup.simulation.sensing.map_resolution = 0.02;
-  setup.simulation.sensing.map_max_distance = 0.35;
+  setup.simulation.sensing.map_grain.resolution = 0.02;
+  setup.simulation.sensing.map_grain.reach = 0.35;
   setup.simulation.pose_noise.seam_sigma = 0.02;
   setup.simulation.trial.arrival_distance = 0.03;
 }

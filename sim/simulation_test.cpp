@@ -270,13 +270,13 @@ TEST(Contradictions, OfAScenarioAreOfItsOwnKeys) {
     return all;
   };
   EXPECT_EQ(keys(), "");
-  sensing.map_max_distance = 0.1;
-  sensing.map_resolution = 0.05;
+  sensing.map_grain.reach = 0.1;
+  sensing.map_grain.resolution = 0.05;
   EXPECT_EQ(keys(), "sensing.map_max_distance");
-  sensing.map_max_distance = 2.0;
-  sensing.map_resolution = 0.4;
+  sensing.map_grain.reach = 2.0;
+  sensing.map_grain.resolution = 0.4;
   EXPECT_EQ(keys(), "sensing.map_resolution");
-  sensing.map_resolution = 0.1;
+  sensing.map_grain.resolution = 0.1;
   scenario.robots.push_back(scenario.robots.front());
   scenario.simulation.radio.loss = 1.0;
   EXPECT_EQ(keys(), "radio.loss");

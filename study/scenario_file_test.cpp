@@ -75,13 +75,14 @@ TEST(ScenarioFile, DefaultsFollowTheRobotOfTheFileAndSetValuesDoNot) {
   EXPECT_DOUBLE_EQ(small.agent.space_time.margin, 0.5 * large.margin);
   EXPECT_DOUBLE_EQ(small.agent.space_time.horizon, large.horizon);  // it stops in the same time
   EXPECT_EQ(small.agent.space_time.peer_margin, 0.05);              // as written
-  EXPECT_DOUBLE_EQ(small.simulation.sensing.map_resolution, 0.5 * standard.simulation.sensing.map_resolution);
+  EXPECT_DOUBLE_EQ(small.simulation.sensing.map_grain.resolution,
+                   0.5 * standard.simulation.sensing.map_grain.resolution);
 }
 
 TEST(ScenarioFile, AFamilyOfSmallRobotsHasTheirDefaults) {
   const RunConfiguration platform = run_configuration_from_text("family: p8\n", "p8.yaml");
   EXPECT_DOUBLE_EQ(platform.agent.space_time.margin, SpaceTimeParameters{}.margin / 6.0);
-  EXPECT_EQ(platform.simulation.sensing.map_resolution, 0.02);  // as the family says
+  EXPECT_EQ(platform.simulation.sensing.map_grain.resolution, 0.02);  // as the family says
   const RunConfiguration again = run_configuration_from_text(to_yaml_text(platform), "again.yaml");
   EXPECT_EQ(to_yaml_text(again), to_yaml_text(platform));
 }
