@@ -323,7 +323,7 @@ PlannerStatus PlannerHost::status() const {
   const AgentStatus status = agent_->status();
   if (stop_cause_ != StopCause::none) return {status.state, to_string(stop_cause_), -1};
   if (recovery_.aside() && status.reason == StopCause::none) return {status.state, "backs off", -1};
-  return {status.state, to_string(status.reason), status.culprit};
+  return {status.state, to_string(status.reason), status.blocking_id};
 }
 
 std::string PlannerHost::fault() const {

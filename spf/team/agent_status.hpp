@@ -15,8 +15,8 @@ enum class StopCause {
   none,
   no_goal,
   arrived,
-  obstacle_ahead,  ///< waits for a moving obstacle (culprit = its id)
-  peer_ahead,      ///< waits for a teammate (culprit = its number)
+  obstacle_ahead,  ///< waits for a moving obstacle (blocking_id = its id)
+  peer_ahead,      ///< waits for a teammate (blocking_id = its number)
   no_path,         ///< the static map leaves no path to the goal
   planner_failed,  ///< no safe plan within the budget; stands and tries again
   // Found by its host's watchdog (host/watchdog.hpp).
@@ -48,7 +48,7 @@ enum class GoalAccess {
 /// A cause and who is behind it.
 struct StandCause {
   StopCause reason = StopCause::none;
-  int culprit = -1;  ///< id of the obstacle or peer, -1 = none
+  int blocking_id = -1;  ///< id of the obstacle or peer, -1 = none
 };
 
 /// Something below the planner, as a guard, keeps the robot from doing as planned.
@@ -60,7 +60,7 @@ struct Hold {
 struct AgentStatus {
   PeerState state = PeerState::stopped;
   StopCause reason = StopCause::no_goal;
-  int culprit = -1;  ///< id of the obstacle or peer behind the reason, -1 = none
+  int blocking_id = -1;  ///< id of the obstacle or peer behind the reason, -1 = none
 };
 
 /// Where the robot thinks it is, and how sure it is of it.
