@@ -9,7 +9,7 @@
 namespace spf {
 namespace {
 
-constexpr double kSurprising = 9.2;      // [1] chi-square, 2 degrees, 0.99
+constexpr double kInnovationGate = 9.2;  // [1] chi-square, 2 degrees, 0.99
 constexpr double kFaceSlideSigma = 0.2;  // [m/s]
 constexpr double kFullEvidence = 3;      // returns that count as full evidence
 
@@ -70,14 +70,14 @@ double Innovation::squared_mahalanobis() const {
   return difference.dot(covariance.inverse() * difference);
 }
 
-Eigen::Vector2d place_of(const ScanTrack& track, const ScanDetection& detection) {
+Eigen::Vector2d measured_position(const ScanTrack& track, const ScanDetection& detection) {
   if (!track.face && detection.kind != ScanDetection::Kind::face) return detection.position_world;
   return detection.position_world + (track.depth - detection.depth) * detection.behind;
 }
 
 Innovation innovation_of(const ScanTrack& track, const ScanDetection& detection) {
   const double late = detection.time - track.time;
-  return {place_of(track, detection) - track.position() - late * track.velocity(),
+  return {measured_position(track, detection) - track.position() - late * track.velocity(),
           track.position_covariance() + detection.covariance};
 }
 
@@ -91,7 +91,7 @@ void correct(ScanTrack& track, const ScanDetection& detection, const PerceptionP
   if (detection.kind == ScanDetection::Kind::disc) track.depth = detection.depth;
   Innovation innovation = innovation_of(track, detection);
   const double dt = std::max(detection.time - track.last_seen, 0.0);
-  if (innovation.squared_mahalanobis() > kSurprising) {
+  if (innovation.squared_mahalanobis() > kInnovationGate) {
     const double v = parameters.sudden_speed * parameters.sudden_speed;
     const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
     track.covariance.topLeftCorner<2, 2>() += v * dt * dt * one;
@@ -108,7 +108,8 @@ void correct(ScanTrack& track, const ScanDetection& detection, const PerceptionP
   const Eigen::Matrix4d corrected =
       kept * track.covariance * kept.transpose() + gain * detection.covariance * gain.transpose();
   track.covariance = 0.5 * (corrected + corrected.transpose());
-  track.measured_world = place_of(track, detection) - (detection.time - track.time) * track.velocity();
+  track.measured_world =
+      measured_position(track, detection) - (detection.time - track.time) * track.velocity();
   track.measured_sigma = std::sqrt(0.5 * detection.covariance.trace());
   track.last_seen = detection.time;
   track.behind = detection.behind;

@@ -13,7 +13,7 @@ struct ScanTrack {
     seen,      ///< has returns of the last sweep
     hidden,    ///< occluded or out of range: coasts
     missing,   ///< beams pass through where it should be
-    absorbed,  ///< the returns there are explained by the map
+    absorbed,  ///< the map masks the returns there
     doubled,   ///< an older track follows the same object
   };
 
@@ -63,10 +63,11 @@ struct Innovation {
   [[nodiscard]] double squared_mahalanobis() const;
 };
 /// The track's position according to a detection. Between a face and a disc, surfaces are compared.
-[[nodiscard]] Eigen::Vector2d place_of(const ScanTrack& track, const ScanDetection& detection);
+[[nodiscard]] Eigen::Vector2d measured_position(const ScanTrack& track, const ScanDetection& detection);
 [[nodiscard]] Innovation innovation_of(const ScanTrack& track, const ScanDetection& detection);
 
-/// Kalman update of a predicted track. A surprising innovation is taken for a sudden change of velocity.
+/// Kalman update of a predicted track. An innovation outside its gate is taken for a sudden change of
+/// velocity.
 void correct(ScanTrack& track, const ScanDetection& detection, const PerceptionParameters& parameters);
 
 }  // namespace spf

@@ -28,7 +28,7 @@ void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vec
   if (same_goal && !is_due(next_time_, time)) return;
   // What was newly sensed off the path makes no other path shorter: only one that is blocked cannot wait.
   const bool can_wait = same_goal && !is_due(update_time_ + kIdlePeriod, time);
-  if (can_wait && (cut_off_ || way_clear(map, here))) return;
+  if (can_wait && (cut_off_ || path_clear(map, here))) return;
   if (same_goal && !cut_off_ && !cost_to_go_.outdated(map, goal_world, here)) return;
   cost_to_go_.update(map, goal_world, here);
   // Without a path to the goal the robot goes as near as the shortest path through the walls leads, and waits
@@ -57,7 +57,7 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
   return last;
 }
 
-bool GuidePolicy::way_clear(const OccupancyMap& map, const Eigen::Vector2d& here) {
+bool GuidePolicy::path_clear(const OccupancyMap& map, const Eigen::Vector2d& here) {
   if (!cost_to_go_.ready() || cost_to_go_.outcome() == CostToGoOutcome::unreachable) return false;
   cost_to_go_.shortest_path(here, corners_);
   const double clearance = cost_to_go_.clearance() - 0.5 * map.frame().resolution;  // it grazes its corners
