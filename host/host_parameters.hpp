@@ -43,7 +43,7 @@ struct HostParameters {
   double clock_error = 0.1;         ///< [s] by which a stamp may be ahead of the clock
   double clock_jump = 1.0;          ///< [s] between two steps: beyond, the clock has jumped
   double goal_heading_tolerance = 0.1;  ///< [rad] within which the heading of the goal is reached
-  double goal_patience = 10.0;          ///< [s] without a way to the goal until it is given up
+  double goal_patience = 10.0;          ///< [s] without a path to the goal until it is given up
   double goal_memory = 10.0;            ///< [s] of absence after which a goal is not taken up again
   bool trusts_peers = false;            ///< peers are taken at their word, unchecked
   double peer_clock_error = 0.05;       ///< [s] beyond, a peer's clock is off and the peer a stranger
@@ -80,7 +80,7 @@ struct HostParameters {
     visit("goal_heading_tolerance", self.goal_heading_tolerance, "rad", Range{0.01, 3.2},
           "the goal's heading counts as reached within this");
     visit("goal_patience", self.goal_patience, "s", Range{0.0, 3600.0},
-          "a goal of the action is given up when no way has led to it for so long");
+          "a goal of the action is given up when no path has led to it for so long");
     visit("goal_memory", self.goal_memory, "s", Range{0.0, 3600.0},
           "a robot that was away for longer does not take up its goal again");
     visit(

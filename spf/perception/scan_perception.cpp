@@ -68,8 +68,8 @@ void ScanPerception::mask_by_discs(const SensorSweep& sweep, const std::vector<M
       const int beam = sweep.wrapped(number);
       const std::int32_t index = beam < 0 ? -1 : return_at_[as_index(beam)];
       if (index < 0) continue;
-      const Eigen::Vector2d way = returns_[as_index(index)].position_world - disc.position_world;
-      if (way.squaredNorm() >= disc.radius * disc.radius) continue;
+      const Eigen::Vector2d offset = returns_[as_index(index)].position_world - disc.position_world;
+      if (offset.squaredNorm() >= disc.radius * disc.radius) continue;
       masked_[as_index(index)] = 1;
       kept_out_[as_index(beam)] = 1;
     }

@@ -72,14 +72,14 @@ void ScanTracker::join_parts(const Segmentation& segmentation, std::vector<ScanD
   for (std::size_t k = 0; k < detections.size(); ++k) {
     if (assignment_.row_of_column()[k] >= 0) continue;
     const Segment& part = detections[k].parts[0];
-    const std::array<int, 3> places{part.first, part.first + part.count / 2, part.first + part.count - 1};
+    const std::array<int, 3> indices{part.first, part.first + part.count / 2, part.first + part.count - 1};
     for (std::size_t row = 0; row < tracks_.size(); ++row) {
       const int main = assignment_.column_of_row()[row];
       if (main < 0 || detections[as_index(main)].part_count >= ScanDetection::kMostParts) continue;
       const double reach = tracks_[row].radius + 3.0 * parameters_.range_sigma +
                            2.0 * std::sqrt(0.5 * tracks_[row].position_covariance().trace());
-      const bool within = std::all_of(places.begin(), places.end(), [&](int place) {
-        return (returns[as_index(place)].position_world - tracks_[row].position()).norm() < reach;
+      const bool within = std::all_of(indices.begin(), indices.end(), [&](int index) {
+        return (returns[as_index(index)].position_world - tracks_[row].position()).norm() < reach;
       });
       if (!within) continue;
       main_of_detection_[k] = main;
@@ -153,8 +153,8 @@ void ScanTracker::judge(const SensorSweep& sweep, ScanTrack& track) {
   // A better estimate of the depth moves the centre, not the object.
   Eigen::Vector2d gone = track.position() - track.birth_world;
   if (track.face) gone = gone.dot(track.behind) * track.behind;
-  const double way = gone.norm();
-  gone *= std::max(1.0 - std::abs(track.depth - track.birth_depth) / std::max(way, 1e-9), 0.0);
+  const double distance = gone.norm();
+  gone *= std::max(1.0 - std::abs(track.depth - track.birth_depth) / std::max(distance, 1e-9), 0.0);
   const Eigen::Matrix2d spread = track.birth_covariance + track.position_covariance();
   const bool displaced = gone.norm() > parameters_.dynamic_distance && track.evidence >= 2.0 &&
                          gone.dot(spread.inverse() * gone) > 11.8;  // three sigma, two degrees

@@ -46,7 +46,7 @@ void SightLimit::prepare(const PlanRequest& request) {
   speed_ = std::max(speed_, kCrawl * robot_.max_speed);
 }
 
-/// Length of a segment from its start to the first place that is unknown.
+/// Length of a segment from its start to the first position that is unknown.
 double SightLimit::explored_length(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   const double length = (to - from).norm();
   const int steps = std::max(1, static_cast<int>(std::ceil(length / (2.0 * reach_))));

@@ -21,7 +21,7 @@ class SightLimit {
   /// `margin` [m]: gap that is left when the robot stands.
   SightLimit(const RobotParameters& robot, double margin);
 
-  /// Looks along the guide, which must be ready. Allocates only for a way of more corners than ever before.
+  /// Looks along the guide, which must be ready. Allocates only for a path of more corners than ever before.
   void prepare(const PlanRequest& request);
 
   /// Largest speed on the guide's path [m/s], up to the robot's: it stands before the first position that is

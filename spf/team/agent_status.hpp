@@ -40,9 +40,9 @@ inline constexpr std::size_t kStopCauses = static_cast<std::size_t>(StopCause::c
 
 /// How the static map, as far as it is known, lets a robot come to its goal.
 enum class GoalAccess {
-  open,     ///< a way leads there
-  blocked,  ///< it lies in a wall, or nearer to one than the robot goes: at best a way leads to beside it
-  cut_off,  ///< no way leads there
+  open,     ///< a path leads there
+  blocked,  ///< it lies in a wall, or nearer to one than the robot goes: at best a path leads to beside it
+  cut_off,  ///< no path leads there
 };
 
 /// A cause and who is behind it.
