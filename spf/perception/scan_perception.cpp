@@ -98,7 +98,7 @@ void ScanPerception::mark_kept_out() {
     if (track == tracks().end() || track->id != id) continue;
     // A new compact object gets time to show whether it moves.
     const bool on_probation = !parameters_.moving_alone && track->isolated &&
-                              track->time - track->birth_time < parameters_.probation;
+                              track->time - track->birth.time < parameters_.probation;
     if (!track->dynamic && !on_probation) continue;
     for (int part = 0; part < found[k].part_count; ++part) {
       const Segment& segment = found[k].parts[as_index(part)];

@@ -17,6 +17,26 @@ struct ScanTrack {
     doubled,   ///< an older track follows the same object
   };
 
+  /// As it was when it was first seen: has it moved since then?
+  struct Birth {
+    double time = 0.0;                                         ///< [s]
+    Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();      ///< [m^2] of that
+    double depth = 0.0;                                        ///< [m]
+    Eigen::Vector2d surface_world = Eigen::Vector2d::Zero();   ///< [m] the point nearest to the sensor
+  };
+
+  /// What speaks for it.
+  struct Evidence {
+    double sweeps = 0.0;       ///< [1] that saw it; less with few returns
+    double free_sweeps = 0.0;  ///< [1] the same, of returns in space seen free before
+    int misses = 0;            ///< in a row
+    double last_seen = 0.0;    ///< [s]
+
+    /// A detection of so many returns, `free_share` [1] of them in space seen free before.
+    void add(double time, int returns, double free_share);
+  };
+
   int id = 0;
   bool confirmed = false;
   bool dynamic = false;   ///< has moved since its birth, or is where space was free
@@ -35,15 +55,8 @@ struct ScanTrack {
   Eigen::Vector2d measured_world = Eigen::Vector2d::Zero();  ///< [m] at `time`, of the last sweep that saw it
   double measured_sigma = 0.0;                               ///< [m] of that, per axis
 
-  double birth_time = 0.0;                                     ///< [s]
-  Eigen::Vector2d birth_world = Eigen::Vector2d::Zero();       ///< [m]
-  Eigen::Matrix2d birth_covariance = Eigen::Matrix2d::Zero();  ///< [m^2]
-  double birth_depth = 0.0;                                    ///< [m]
-  Eigen::Vector2d birth_surface = Eigen::Vector2d::Zero();     ///< [m] the point nearest to the sensor
-  double last_seen = 0.0;                                      ///< [s]
-  double evidence = 0.0;       ///< [1] sweeps that saw it; less with few returns
-  double free_evidence = 0.0;  ///< [1] the same, of returns in space seen free before
-  int misses = 0;              ///< in a row
+  Birth birth;
+  Evidence evidence;
 
   [[nodiscard]] Eigen::Vector2d position() const { return state.head<2>(); }
   [[nodiscard]] Eigen::Vector2d velocity() const { return state.tail<2>(); }
