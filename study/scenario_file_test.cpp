@@ -233,7 +233,12 @@ TEST(ScenarioFile, SaysWhenAFamilyHasNoRoom) {
   EXPECT_THAT(robots, testing::StartsWith("file.yaml:2:9: robots = 2000 cannot be drawn: robots["));
   EXPECT_THAT(robots, testing::Not(HasSubstr("\n")));
   EXPECT_THAT(report("family: t2\nlayout: {squares: 200}"),
-              testing::StartsWith("file.yaml:1:9: family = t2 cannot be drawn: no scene"));
+              testing::StartsWith(
+                  "file.yaml:2:19: layout.squares = 200 cannot be drawn: no scene of family t2 found in "));
+  EXPECT_THAT(report("family: t2\nlayout: {squares: 200}"), testing::EndsWith(": no room for 200 squares"));
+  EXPECT_THAT(
+      report("family: p8\nlayout: {discs: 200}"),
+      testing::StartsWith("file.yaml:2:17: layout.discs = 200 cannot be drawn: no scene of family p8"));
 }
 
 /// How many lines a report has, and how many problems beyond them it counts.
@@ -278,7 +283,7 @@ TEST(ScenarioFile, RefusesLongerListsThanItLooksThrough) {
 
 TEST(ScenarioFile, AHopelessLayoutOfManyIsGivenUpSoon) {
   const std::string found = report("family: t2\nrobots: 10000\nlayout: {squares: 200}\n");
-  EXPECT_THAT(found, HasSubstr("found in 20 attempts: too many shapes for the place"));
+  EXPECT_THAT(found, HasSubstr("found in 20 attempts: no room for 200 squares"));
 }
 
 TEST(ScenarioFile, ResolvedFormReadsBackToTheSameStudy) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace spf {
 namespace {
@@ -21,13 +22,19 @@ bool usable(const MpcProblem& problem, int horizon) {
   return finite;
 }
 
+void check_bounds(const std::string& axis, double lower, double upper) {
+  if (lower <= upper) return;
+  throw std::invalid_argument(axis + "_lower = " + std::to_string(lower) + " m must not exceed " + axis +
+                              "_upper = " + std::to_string(upper) + " m");
+}
+
 }  // namespace
 
 ModelPredictiveController::ModelPredictiveController(const MpcParameters& parameters,
                                                      const OmniKinematics& kinematics)
     : parameters_{validated(parameters)}, kinematics_{kinematics} {
-  if (parameters_.x_lower > parameters_.x_upper || parameters_.y_lower > parameters_.y_upper)
-    throw std::invalid_argument("x_lower, y_lower must not exceed x_upper, y_upper");
+  check_bounds("x", parameters_.x_lower, parameters_.x_upper);
+  check_bounds("y", parameters_.y_lower, parameters_.y_upper);
   constexpr double kUnbounded = 1e30;
   lq_.steps = parameters_.horizon;
   lq_.state_weight = {parameters_.position_weight, parameters_.position_weight, parameters_.heading_weight};
