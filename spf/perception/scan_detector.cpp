@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/index.hpp"
 #include "spf/math/plane.hpp"
-#include "spf/perception/index.hpp"
 
 namespace spf {
 namespace {

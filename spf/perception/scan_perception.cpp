@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "spf/perception/index.hpp"
+#include "spf/math/index.hpp"
 
 namespace spf {
 

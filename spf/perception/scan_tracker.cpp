@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spf/perception/index.hpp"
+#include "spf/math/index.hpp"
 
 namespace spf {
 namespace {
