@@ -238,7 +238,7 @@ TEST(MpcAgainstIpoptSlow, TwoIterationsAreUsableFarFromTheReference) {
   }
   std::cout << "two iterations, far off: compared " << compared << ", gap " << worst << "\n";
   EXPECT_GE(compared, 59);  // of 60
-  EXPECT_LT(worst, 0.1);  // measured 0.044
+  EXPECT_LT(worst, 0.1);    // measured 0.044
 }
 
 }  // namespace
