@@ -1,8 +1,10 @@
 // spf crowd: makes a synthetic crowd in the file format of recorded ones.
 #include <algorithm>
+#include <charconv>
 #include <iostream>
 #include <memory>
 #include <set>
+#include <system_error>
 
 #include "apps/command.hpp"
 #include "config/input_problem.hpp"
@@ -32,7 +34,13 @@ class OptionMaker {
     std::replace(option.begin(), option.end(), '_', '-');
     app_.add_option(option, value, what + " (default " + to_text(value) + ")")
         ->type_name(unit == "1" ? "NUMBER" : unit)
-        ->check(CLI::Range(range.low, range.high));
+        ->check([range, unit](const std::string& text) {
+          const char* const end = text.data() + text.size();
+          double number = 0.0;
+          const auto [rest, error] = std::from_chars(text.data(), end, number);
+          const bool good = error == std::errc{} && rest == end && range.contains(number);
+          return good ? std::string{} : text + " " + limit_sentence(range, unit.c_str());
+        });
   }
 
  private:

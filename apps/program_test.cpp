@@ -322,7 +322,11 @@ TEST_F(Program, MakesACrowdAndCrossesIt) {
   const Finished missing = run("run '" + kSource + "/scenarios/ped.yaml' --set crowd=nobody.csv");
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.error, HasSubstr("--set: crowd = nobody.csv is no file"));
-  EXPECT_EQ(run("crowd --out crowd.csv --people -1").status, 2);
+  const Finished nobody = run("crowd --out crowd.csv --people 0");
+  EXPECT_EQ(nobody.status, 2);
+  EXPECT_THAT(nobody.error, HasSubstr("--people: 0 must lie in [0.1, 1000]"));
+  const Finished slow = run("crowd --out crowd.csv --speed 0.1");
+  EXPECT_THAT(slow.error, HasSubstr("--speed: 0.1 must lie in [0.2, 3] m/s"));
 }
 
 }  // namespace

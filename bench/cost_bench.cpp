@@ -19,7 +19,7 @@ struct Scene {
   OccupancyMap map{GridFrame::covering({-15.0, -15.0}, {15.0, 15.0}, 0.1), 2.0};
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
-  CostToGo guide{CostToGoParameters{}};
+  CostToGo guide{CostToGoParameters{}, 0.2};
   PlanRequest request;
 
   Scene(std::uint64_t seed, int boxes, int peer_count, int obstacles) {

@@ -4,7 +4,8 @@ if(NOT PROJECT_IS_TOP_LEVEL OR SPF_SANITIZE)
   return()
 endif()
 
-# Exit status 77 means that a tool is not installed; `script/test` installs them all.
+# Exit status 77 means that a tool is not installed; `script/test` installs them all, and sets SPF_REQUIRE_TOOLS, by which it is
+# a failure.
 function(spf_project_test NAME)
   add_test(NAME ${NAME} COMMAND ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   set_tests_properties(${NAME} PROPERTIES LABELS project TIMEOUT 900 COST 20 SKIP_RETURN_CODE 77)

@@ -107,8 +107,8 @@ TEST(RobotFile, DefaultsOfTheHostFollowTheRobotButNotItsPeers) {
   const RobotFile standard = robot_file_from_text("method: space_time", "robot.yaml");
   const RobotFile small =
       robot_file_from_text("robot: {radius: 0.15}\nhost: {jump_distance: 0.4}", "robot.yaml");
-  EXPECT_DOUBLE_EQ(small.host.map_resolution, 0.5 * standard.host.map_resolution);
-  EXPECT_DOUBLE_EQ(small.host.map_reach, 0.5 * standard.host.map_reach);
+  EXPECT_DOUBLE_EQ(small.host.map_grain.resolution, 0.5 * standard.host.map_grain.resolution);
+  EXPECT_DOUBLE_EQ(small.host.map_grain.reach, 0.5 * standard.host.map_grain.reach);
   EXPECT_EQ(small.host.jump_distance, 0.4);  // as it is written
   EXPECT_EQ(small.host.largest_peer_radius, standard.host.largest_peer_radius);
 }

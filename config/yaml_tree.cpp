@@ -139,7 +139,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-SourceLocation place_of_byte(std::string_view text, std::size_t offset, const std::string& source) {
+SourceLocation location_of_byte(std::string_view text, std::size_t offset, const std::string& source) {
   SourceLocation location{source, 1, 1};
   for (std::size_t i = 0; i < offset; ++i) {
     if (text[i] == '\n') {
@@ -182,7 +182,7 @@ YamlNode parse_yaml(std::string_view text, const std::string& source, InputProbl
     std::ostringstream sentence;
     sentence << "byte 0x" << std::hex << static_cast<int>(static_cast<unsigned char>(text[*bad]))
              << " is not UTF-8 text";
-    problems.add(place_of_byte(text, *bad, source), sentence.str());
+    problems.add(location_of_byte(text, *bad, source), sentence.str());
     return nothing;
   }
   TreeBuilder builder{source, limits, problems};

@@ -154,7 +154,7 @@ TEST(TrialRun, TellsOfWheelsAndCausesWhatARecordingShows) {
   ASSERT_TRUE(trial.record.cause.has_value());
   const CauseRecord& cause = *trial.record.cause;
   const auto robot = static_cast<std::size_t>(cause.robot);
-  EXPECT_EQ(cause.culprit, recording.frames.back().robots[robot].status.culprit);
+  EXPECT_EQ(cause.blocking_id, recording.frames.back().robots[robot].status.blocking_id);
   const sim::RecordedPlan* last = nullptr;
   for (const sim::RecordedPlan& plan : recording.plans)
     if (plan.robot == cause.robot) last = &plan;

@@ -12,7 +12,7 @@ constexpr double kStanding = 0.05;  // [m/s] slower counts as standing (docs/pro
 std::string to_text(const CauseRecord& cause) {
   std::string text = "robot " + std::to_string(cause.robot) + ": " +
                      (cause.stand_reason.empty() ? "unknown state" : cause.stand_reason);
-  if (cause.culprit >= 0) text += " (" + std::to_string(cause.culprit) + ")";
+  if (cause.blocking_id >= 0) text += " (" + std::to_string(cause.blocking_id) + ")";
   if (cause.last_plan.empty()) return text + ", no plan yet";
   return text + ", last plan " + cause.last_plan + " " + fixed(cause.plan_age, 2) + " s before";
 }

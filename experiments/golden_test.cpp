@@ -14,6 +14,7 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "experiments/run_configuration_test.hpp"
 #include "parallel/worker_pool.hpp"
 #include "report/table.hpp"
+#include "sim/families.hpp"
 #include "spf/team/method_table.hpp"
 #include "spf/testing/source_dir.hpp"
 #include "study/scenario_file.hpp"
@@ -131,13 +133,20 @@ GoldenRow row_of(const std::vector<TrialRecord>& records) {
   return row;
 }
 
-/// A family's scenes, full loop. Dear ones have fewer robots or trials, so that all take a minute of
-/// computing.
+constexpr int kTrials = 10;  // of every family and method
+
+/// A family's scenes, full loop. Dear ones have fewer robots.
 struct GoldenScenes {
   const char* family;
-  int trials;
   std::vector<Setting> settings;
 };
+
+const std::vector<GoldenScenes>& all_scenes() {
+  static const std::vector<GoldenScenes> scenes{{"t2", {}}, {"t2_hard", {}}, {"f7", {{"robots=4"}}},
+                                                {"p8", {}}, {"swap", {}},    {"field", {{"robots=5"}}},
+                                                {"ped", {}}};
+  return scenes;
+}
 
 void PrintTo(const GoldenScenes& scenes, std::ostream* out) {
   *out << scenes.family;
@@ -176,7 +185,7 @@ TEST_P(GoldenSlow, BehaviourIsAsRecorded) {
         read_run_configuration(source_dir() + "/scenarios/" + GetParam().family + ".yaml", settings);
     CampaignRequest request;
     request.jobs = thread_count(renewed_file() != nullptr ? 0 : 1);
-    const GoldenRow row = row_of(run_configuration(config, 0, GetParam().trials, request));
+    const GoldenRow row = row_of(run_configuration(config, 0, kTrials, request));
     rows_.push_back(row);
     const std::string changed = difference(golden, row, platform());
     if (!changed.empty()) differences += changed + "\n";
@@ -189,13 +198,30 @@ TEST_P(GoldenSlow, BehaviourIsAsRecorded) {
                              << "; meant? script/golden --renew";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, GoldenSlow,
-                         testing::Values(GoldenScenes{"t2", 10, {}}, GoldenScenes{"t2_hard", 2, {}},
-                                         GoldenScenes{"f7", 2, {{"robots=4"}}}, GoldenScenes{"p8", 5, {}},
-                                         GoldenScenes{"swap", 5, {}},
-                                         GoldenScenes{"field", 10, {{"robots=5"}}},
-                                         GoldenScenes{"ped", 5, {}}),
+INSTANTIATE_TEST_SUITE_P(All, GoldenSlow, testing::ValuesIn(all_scenes()),
                          [](const auto& scenes) { return std::string{scenes.param.family}; });
+
+// What is compared is what is recorded: a row that is no longer run would never be missed.
+TEST(Golden, RecordsTenTrialsOfEveryFamilyAndMethodAndNothingElse) {
+  std::set<std::string> run;
+  std::set<std::string> families;
+  const MethodTable methods;
+  for (const GoldenScenes& scenes : all_scenes()) {
+    families.insert(scenes.family);
+    for (const Method& method : methods.all()) run.insert(std::string{scenes.family} + " " + method.name);
+  }
+  std::set<std::string> wanted_families;
+  for (const auto& [family, name] : EnumNames<sim::Family>::values) wanted_families.insert(name);
+  EXPECT_EQ(families, wanted_families);
+
+  std::ifstream file{kFile};
+  std::set<std::string> recorded;
+  for (const auto& [name, row] : read_golden(file).rows) {
+    recorded.insert(name);
+    EXPECT_EQ(row.outcomes.size(), static_cast<std::size_t>(kTrials)) << name;
+  }
+  EXPECT_EQ(recorded, run);
+}
 
 Golden one_row(const std::string& outcomes, const std::string& ratio) {
   std::istringstream file{"# head\nplatform: here\nt2 orca " + outcomes + " " + ratio + " abc\n"};

@@ -118,7 +118,7 @@ ReplayStateKind kind_of(const sim::RecordedRobot& robot) {
 std::string state_text(const sim::RecordedRobot& robot) {
   if (robot.wrecked) return "wrecked";
   std::string text = to_string(robot.status.reason);
-  if (robot.status.culprit >= 0) text += " " + std::to_string(robot.status.culprit);
+  if (robot.status.blocking_id >= 0) text += " " + std::to_string(robot.status.blocking_id);
   if (robot.status.reason != StopCause::none && robot.status.state == PeerState::braking)
     text += " (braking)";
   return text;

@@ -122,7 +122,7 @@ struct CauseRecord {
   std::string last_plan;     ///< outcome of its last planning call, empty when there was none
   double plan_age = 0.0;     ///< [s] since that call
   std::string stand_reason;  ///< moving, obstacle ahead, ...
-  int culprit = -1;          ///< id of the obstacle or peer behind the reason, -1 = none
+  int blocking_id = -1;      ///< id of the obstacle or peer behind the reason, -1 = none
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -131,7 +131,7 @@ struct CauseRecord {
     visit.text("last_plan", self.last_plan, 0, kLongestName);
     visit.maybe_number("plan_age", self.plan_age, kTime);
     visit.text("stand_reason", self.stand_reason, 0, kLongestName);
-    visit.whole("culprit", self.culprit, -1, kLargestId);
+    visit.whole("culprit", self.blocking_id, -1, kLargestId);
   }
 };
 

@@ -44,7 +44,7 @@ CauseRecord TrialWatch::cause(int robot, double time) const {
   }
   if (known.status) {
     cause.stand_reason = known.status->reason == StopCause::none ? "moving" : to_string(known.status->reason);
-    cause.culprit = known.status->culprit;
+    cause.blocking_id = known.status->blocking_id;
   }
   return cause;
 }

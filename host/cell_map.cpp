@@ -67,7 +67,7 @@ OccupancyMap map_of_cells(const CellMap& cells, const HostParameters& host) {
     high = centre + half;
   }
   // Shapes between nodes keep their exact distance, so nodes may be farther apart than cells.
-  OccupancyMap map = empty_map(low, high, MapGrain::of(host), cell);
+  OccupancyMap map = empty_map(low, high, host.map_grain, cell);
   if (turned)
     map.add_border(Eigen::Vector2d::Zero(), extent, origin);
   else

@@ -197,14 +197,14 @@ void Rules::check_sight() {
 }
 
 void Rules::check_map() {
-  const Named reach{"host.map_reach", host_.map_reach, "m"};
+  const Named reach{"host.map_reach", host_.map_grain.reach, "m"};
   const double least =
       robot_.radius + std::max(agent_.planner.static_margin, agent_.space_time.static_margin);
-  if (!exceeds(std::max(reach.value, kLeastReach * host_.map_resolution), least))
+  if (!exceeds(std::max(reach.value, kLeastReach * host_.map_grain.resolution), least))
     add(Severity::error, reach, radius(),
         "does not reach beyond the robot and its margin, " + quantity(least, "m") + " (" + shown(radius()) +
             "): all ground would look blocked");
-  check_longer(Severity::warning, {"host.map_resolution", host_.map_resolution, "m"}, radius(),
+  check_longer(Severity::warning, {"host.map_resolution", host_.map_grain.resolution, "m"}, radius(),
                "gaps that the robot could pass vanish from its map");
 }
 

@@ -121,13 +121,13 @@ const std::vector<Conflict> kConflicts{
      [](TestedRobot& all) { all.conditions.sensing_range = 1.11; }},
     {"host.map_reach", Severity::error, "does not reach beyond the robot and its margin, 0.32 m",
      [](TestedRobot& all) {
-       all.host.map_reach = 0.3;
-       all.host.map_resolution = 0.05;
+       all.host.map_grain.reach = 0.3;
+       all.host.map_grain.resolution = 0.05;
      },
-     [](TestedRobot& all) { all.host.map_reach = 0.3; }},  // four cells of 0.1 m are farther
+     [](TestedRobot& all) { all.host.map_grain.reach = 0.3; }},  // four cells of 0.1 m are farther
     {"host.map_resolution", Severity::warning, "is longer than robot.radius = 0.3 m",
-     [](TestedRobot& all) { all.host.map_resolution = 0.31; },
-     [](TestedRobot& all) { all.host.map_resolution = 0.3; }},
+     [](TestedRobot& all) { all.host.map_grain.resolution = 0.31; },
+     [](TestedRobot& all) { all.host.map_grain.resolution = 0.3; }},
     {"agent.team.message_lifetime", Severity::warning, "is shorter than the 0.25 s until the next broadcast",
      [](TestedRobot& all) { all.agent.team.message_lifetime = 0.2; },
      [](TestedRobot& all) { all.agent.team.message_lifetime = 0.25; }},

@@ -11,8 +11,8 @@ namespace {
 /// A pose after a motion of constant twist in the body.
 Pose2 carried(const Pose2& from, const Eigen::Vector3d& twist_body, double duration) {
   const double middle = from.heading + 0.5 * duration * twist_body.z();
-  const Eigen::Vector3d way = duration * twist_in_world(twist_body, middle);
-  return {from.position_world + way.head<2>(), wrap_angle(from.heading + way.z())};
+  const Eigen::Vector3d displacement = duration * twist_in_world(twist_body, middle);
+  return {from.position_world + displacement.head<2>(), wrap_angle(from.heading + displacement.z())};
 }
 
 }  // namespace

@@ -70,11 +70,11 @@ void make_plain(DriverScan& driver, NoReturn no_return) {
 
 RangeScan seen_from_centre(const DriverScan& plain, const BodyMotion& motion) {
   const RangeScan& scan = plain.scan;
-  const Pose2& place = plain.mount.in_body;
+  const Pose2& mount = plain.mount.in_body;
   const bool moves = plain.duration <= kLongestSweep && skewed(plain, motion);
   RangeScan seen = scan;
-  if (place.position_world.norm() < kAtCentre && !moves) {
-    seen.angle_min = wrap_angle(scan.angle_min + place.heading);
+  if (mount.position_world.norm() < kAtCentre && !moves) {
+    seen.angle_min = wrap_angle(scan.angle_min + mount.heading);
     return seen;
   }
   const std::size_t count = scan.ranges.size();
@@ -82,7 +82,7 @@ RangeScan seen_from_centre(const DriverScan& plain, const BodyMotion& motion) {
   const auto bins = static_cast<std::size_t>(std::max(1.0, std::round(2.0 * kPi / step)));
   seen.angle_min = -kPi;
   seen.angle_increment = 2.0 * kPi / static_cast<double>(bins);
-  seen.max_range = scan.max_range + place.position_world.norm();
+  seen.max_range = scan.max_range + mount.position_world.norm();
   seen.ranges.assign(bins, std::numeric_limits<double>::quiet_NaN());
   const BodyMotion counted = moves ? motion : BodyMotion{};
   for (std::size_t i = 0; i < count; ++i) {

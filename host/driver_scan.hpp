@@ -14,12 +14,12 @@ namespace spf::host {
 
 /// Where a planar scanner is on the robot.
 struct ScannerMount {
-  Pose2 in_body;             ///< place, and where its x axis points
+  Pose2 in_body;             ///< position, and where its x axis points
   bool upside_down = false;  ///< beams run the other way round
 };
 
-/// The mount of a scanner at this place [m] in the body, turned like this. Nothing for a scanner whose plane
-/// is tilted by more than 0.2 rad: its ranges are none of the plane that the robot moves in.
+/// The mount of a scanner at this position [m] in the body, turned like this. Nothing for a scanner whose
+/// plane is tilted by more than 0.2 rad: its ranges are none of the plane that the robot moves in.
 [[nodiscard]] std::optional<ScannerMount> planar_mount(const Eigen::Vector3d& position_body,
                                                        const Eigen::Quaterniond& orientation);
 
@@ -36,7 +36,7 @@ struct DriverScan {
   ScannerMount mount;
 };
 
-/// Makes it one of an upright scanner at the same place, whose every reading is a range, infinite (nothing
+/// Makes it one of an upright scanner at the same position, whose every reading is a range, infinite (nothing
 /// there), or NaN (no reading). A range as long as the scanner's own is one that it was cut off at.
 void make_plain(DriverScan& driver, NoReturn no_return);
 

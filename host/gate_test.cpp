@@ -309,7 +309,7 @@ TEST(PeerWitness, RemembersABoundedNumberOfPeersTheSilentLeast) {
   PeerWitness witness;
   const int most = static_cast<int>(kMostPeers);
   const auto hear_all = [&](int from, double now) {
-    for (int id = from; id < from + most; ++id) witness.hear(told(id, now, standing(1.0, now)), now);
+    for (int id = from; id < from + most; ++id) witness.add_message(told(id, now, standing(1.0, now)), now);
   };
   hear_all(0, 10.0);
   hear_all(0, 11.5);
@@ -332,13 +332,13 @@ TEST(PeerWitness, TrustsWhoIsWhereItSays) {
     for (; now < until; now += 0.1) {
       const Eigen::Vector2d from = Eigen::Vector2d{3.0, 0.0} + (now - 10.0) * restart_step;
       const TrajectoryMessage message = told(5, now, leaving(from, {0.0, 0.5}, now));
-      witness.hear(message, now);
+      witness.add_message(message, now);
       peers[0].trajectory = message.trajectory;
       RangeScan scan;
       scan.angle_min = -kPi;
       scan.angle_increment = 2.0 * kPi / 360;
       scan.ranges.assign(360, range);
-      witness.see(scan, Pose2{}, now, peers);
+      witness.add_scan(scan, Pose2{}, now, peers);
     }
   };
   // One that does what it says, and is seen.

@@ -94,7 +94,7 @@ bool GoalSupervisor::reached(const GoalFacts& facts) const {
 
 GoalOutcome GoalSupervisor::complaint(const GoalFacts& facts) const {
   if (facts.access == GoalAccess::cut_off) return GoalOutcome::no_path;
-  // A way leads to beside it: that is driven first.
+  // A path leads to beside it: that is driven first.
   if (facts.access == GoalAccess::blocked && facts.stands_short)
     return facts.on_map ? GoalOutcome::in_wall : GoalOutcome::off_map;
   return GoalOutcome::pursued;

@@ -17,7 +17,7 @@ enum class GoalOutcome {
   // Given up:
   off_map,  ///< it lies beyond the map
   in_wall,  ///< in a wall, or nearer to one than the robot goes
-  no_path,  ///< no way has led there for as long as it was waited for
+  no_path,  ///< no path has led there for as long as it was waited for
   // By somebody's wish:
   preempted,  ///< for a newer one
   cancelled,
@@ -35,7 +35,7 @@ struct GoalFacts {
   bool on_map = true;
   double clearance =
       std::numeric_limits<double>::infinity();  ///< [m] of the goal from the walls of the given map
-  /// How the way to it stands; none while no plan is made for it, or something else makes the robot stand.
+  /// How the path to it stands; none while no plan is made for it, or something else makes the robot stand.
   std::optional<GoalAccess> access;
   bool stands_short = false;                                  ///< of a goal that it cannot come nearer to
   bool arrived = false;                                       ///< its plan has ended at the goal
@@ -54,7 +54,7 @@ class GoalSupervisor {
   /// Takes what it needs of them: the robot's radius and the tolerances.
   void reconfigure(const AgentParameters& agent, const HostParameters& host);
 
-  /// A new goal. It is given up when for `patience` [s] without a break there was no way to it: kForEver for
+  /// A new goal. It is given up when for `patience` [s] without a break there was no path to it: kForEver for
   /// those that nobody waits for.
   void begin(double patience);
   /// In every step of the planner, after it. What was decided stays.

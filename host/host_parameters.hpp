@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/guard_parameters.hpp"
+#include "host/map_grain.hpp"
 #include "spf/math/parameters.hpp"
 
 namespace spf {
@@ -42,16 +43,15 @@ struct HostParameters {
   double clock_error = 0.1;         ///< [s] by which a stamp may be ahead of the clock
   double clock_jump = 1.0;          ///< [s] between two steps: beyond, the clock has jumped
   double goal_heading_tolerance = 0.1;  ///< [rad] within which the heading of the goal is reached
-  double goal_patience = 10.0;          ///< [s] without a way to the goal until it is given up
+  double goal_patience = 10.0;          ///< [s] without a path to the goal until it is given up
   double goal_memory = 10.0;            ///< [s] of absence after which a goal is not taken up again
   bool trusts_peers = false;            ///< peers are taken at their word, unchecked
   double peer_clock_error = 0.05;       ///< [s] beyond, a peer's clock is off and the peer a stranger
   double largest_peer_radius = 2.0;     ///< [m] messages of larger peers are malformed
   double largest_peer_sigma = 1.0;      ///< [m] likewise of those who do not know where they are
   double largest_peer_speed = 10.0;     ///< [m/s] likewise of faster ones
-  double grid_size = 40.0;      ///< [m] side of the sensed map, around the start, where no map is given
-  double map_resolution = 0.1;  ///< [m] node distance of the map, given or sensed
-  double map_reach = 2.0;       ///< [m] up to which its distances are exact
+  double grid_size = 40.0;  ///< [m] side of the sensed map, around the start, where no map is given
+  MapGrain map_grain;
   GuardParameters guard;
 
   template <class Self, class Visitor>
@@ -80,7 +80,7 @@ struct HostParameters {
     visit("goal_heading_tolerance", self.goal_heading_tolerance, "rad", Range{0.01, 3.2},
           "the goal's heading counts as reached within this");
     visit("goal_patience", self.goal_patience, "s", Range{0.0, 3600.0},
-          "a goal of the action is given up when no way has led to it for so long");
+          "a goal of the action is given up when no path has led to it for so long");
     visit("goal_memory", self.goal_memory, "s", Range{0.0, 3600.0},
           "a robot that was away for longer does not take up its goal again");
     visit(
@@ -96,10 +96,7 @@ struct HostParameters {
           "messages of faster peers are malformed");
     visit("grid_size", self.grid_size, kMetresByStopping, Range{1.0, 1000.0},
           "side of the sensed map, around the start, where no map is given");
-    visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
-          "node distance of the map; a given one with coarser cells keeps those");
-    visit("map_reach", self.map_reach, kMetresBySize, Range{0.01, 100.0},
-          "distances to static surfaces are exact up to here");
+    MapGrain::visit_fields_as("map_resolution", "map_reach", self.map_grain, visit);
     visit.group("guard", self.guard);
   }
 };

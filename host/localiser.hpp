@@ -30,7 +30,8 @@ class Localiser {
   /// time [s]. Its robot is localised no later, however fresh its odometry. Not called where poses are
   /// measured in the world itself.
   void placed_by_transform_of(double time) { placed_time_ = time; }
-  /// What the last relocalisation did: a place that was taken for p is turned by this and then shifted by it.
+  /// What the last relocalisation did: a position that was taken for p is turned by this and then shifted by
+  /// it.
   [[nodiscard]] const Pose2& correction() const { return correction_; }
   /// Rim speeds [m/s] that the motors are told from a time on, held until the next: those that were really
   /// applied. Those that are not finite count as none. What is older than the last is ignored; the caller

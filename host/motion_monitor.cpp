@@ -14,7 +14,7 @@ constexpr double kAwayRadii = 5.0;     // from where it last failed: farther tha
 constexpr int kQuarters = 4;           // of the window: a jump of the poses falls into two of them at most
 constexpr int kStuckQuarters = 3;      // that show standing
 constexpr double kQuarterStuck = 0.5;  // [1] of what was told in it
-constexpr double kSteady = 0.1;        // [1] of the whole way is to be told in it
+constexpr double kSteady = 0.1;        // [1] of the whole displacement is to be told in it
 constexpr double kSigmas = 5.0;        // by which what is missing must exceed the noise
 constexpr int kSlotsRemembered = 40;   // slots over which noise is averaged
 constexpr double kLongestGap = 0.5;    // [s] between poses: beyond, nothing is known of the time between
@@ -39,7 +39,7 @@ void MotionMonitor::reset() {
   last_mean_ = {};
   for (NoiseMeter& meter : noise_) meter.reset();
   attempts_.reset();
-  way_in_vain_.setZero();
+  displacement_in_vain_.setZero();
 }
 
 void MotionMonitor::begin(double time, double heading) {
@@ -58,14 +58,15 @@ void MotionMonitor::note(double time, const Pose2& pose_world, const Eigen::Vect
   if (since > kLongestGap)
     begin(time, pose_world.heading);
   else
-    told_ += since * told_twist_world.cwiseProduct(Way{1.0, 1.0, lever_});
+    told_ += since * told_twist_world.cwiseProduct(Displacement{1.0, 1.0, lever_});
   told_speed_ = told_twist_world.head<2>().norm();
   turned_ += angle_difference(pose_world.heading, last_heading_);
   last_heading_ = pose_world.heading;
 
   advance_to_slot(static_cast<long long>(std::floor(time / kSlotLength)));
   Slot& slot = slots_[in_ring(slot_)];
-  slot.place += Way{pose_world.position_world.x(), pose_world.position_world.y(), lever_ * turned_};
+  slot.position +=
+      Displacement{pose_world.position_world.x(), pose_world.position_world.y(), lever_ * turned_};
   slot.told += told_;
   ++slot.poses;
 }
@@ -84,12 +85,12 @@ MotionMonitor::Slot MotionMonitor::mean_of_group(long long slots_ago) const {
   Slot mean;
   for (long long i = 0; i < kGroup; ++i) {
     const Slot& slot = slots_[in_ring(slot_ - slots_ago - i)];
-    mean.place += slot.place;
+    mean.position += slot.position;
     mean.told += slot.told;
     mean.poses += slot.poses;
   }
   if (mean.poses == 0) return mean;
-  mean.place /= mean.poses;
+  mean.position /= mean.poses;
   mean.told /= mean.poses;
   return mean;
 }
@@ -97,10 +98,10 @@ MotionMonitor::Slot MotionMonitor::mean_of_group(long long slots_ago) const {
 void MotionMonitor::learn_noise() {
   Slot mean = slots_[in_ring(slot_)];
   if (mean.poses == 0) return;
-  mean.place /= mean.poses;
+  mean.position /= mean.poses;
   mean.told /= mean.poses;
   if (last_mean_.poses > 0) {
-    const Way surprise = (mean.place - last_mean_.place) - (mean.told - last_mean_.told);
+    const Displacement surprise = (mean.position - last_mean_.position) - (mean.told - last_mean_.told);
     for (std::size_t i = 0; i < noise_.size(); ++i) noise_[i].note(surprise[static_cast<Eigen::Index>(i)]);
   }
   last_mean_ = mean;
@@ -112,11 +113,11 @@ void MotionMonitor::judge() {
     at[i] = mean_of_group(kQuarter * static_cast<long long>(i));
     if (at[i].poses == 0) return;
   }
-  const Way told = at.front().told - at.back().told;
+  const Displacement told = at.front().told - at.back().told;
   const double length = told.norm();
   if (length < least_told_) return;
-  const double moved = (at.front().place - at.back().place).dot(told) / length;
-  const Eigen::Vector2d here = at.front().place.head<2>();
+  const double moved = (at.front().position - at.back().position).dot(told) / length;
+  const Eigen::Vector2d here = at.front().position.head<2>();
   if (moved >= kMovingShare * length && (here - failed_at_world_).norm() >= kAwayRadii * lever_)
     attempts_.succeed();
   // Of the difference of two groups' means, over all axes.
@@ -127,13 +128,13 @@ void MotionMonitor::judge() {
   int stuck_quarters = 0;
   for (std::size_t i = 0; i < kQuarters; ++i) {
     const double told_here = (at[i].told - at[i + 1].told).dot(told) / length;
-    const double moved_here = (at[i].place - at[i + 1].place).dot(told) / length;
+    const double moved_here = (at[i].position - at[i + 1].position).dot(told) / length;
     if (told_here >= kSteady * length && moved_here < kQuarterStuck * told_here) ++stuck_quarters;
   }
   if (stuck_quarters < kStuckQuarters) return;
   attempts_.fail(last_time_, told_speed_ / deceleration_);
   failed_at_world_ = here;
-  way_in_vain_ = told.head<2>();
+  displacement_in_vain_ = told.head<2>();
   slots_ = {};  // the next attempt is judged by itself
 }
 

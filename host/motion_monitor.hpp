@@ -31,19 +31,19 @@ class MotionMonitor {
   [[nodiscard]] bool stuck(double now) const { return attempts_.waiting(now); }
   /// How many attempts in a row have failed, until it has driven well away from there.
   [[nodiscard]] int failures() const { return attempts_.failures(); }
-  /// The way [m, m] that it was last told to drive in vain, within a window; zero before and after mere
-  /// turning.
-  [[nodiscard]] const Eigen::Vector2d& way_in_vain() const { return way_in_vain_; }
+  /// The displacement [m, m] that it was last told to drive in vain, within a window; zero before and after
+  /// mere turning.
+  [[nodiscard]] const Eigen::Vector2d& displacement_in_vain() const { return displacement_in_vain_; }
 
   static constexpr double kWindow = 1.0;  ///< [s]
 
  private:
-  // Turning counts by the way of a point on the robot's edge.
-  using Way = Eigen::Vector3d;  // [m]
+  // Turning counts by how far it moves a point on the robot's edge.
+  using Displacement = Eigen::Vector3d;  // [m]
   /// Sums over the poses of a short time, or their means.
   struct Slot {
-    Way place = Way::Zero();
-    Way told = Way::Zero();
+    Displacement position = Displacement::Zero();
+    Displacement told = Displacement::Zero();
     int poses = 0;
   };
   static constexpr double kSlotLength = 0.05;  // [s]
@@ -58,7 +58,7 @@ class MotionMonitor {
   void judge();
   [[nodiscard]] Slot mean_of_group(long long slots_ago) const;
 
-  double lever_;         // [m] from turning to way
+  double lever_;         // [m] from turning to displacement
   double least_told_;    // [m] in a window: less says nothing
   double deceleration_;  // [m/s^2]
 
@@ -67,7 +67,7 @@ class MotionMonitor {
   double last_time_;                                          // [s]
   double last_heading_ = 0.0;                                 // [rad]
   double turned_ = 0.0;                                       // [rad] since the beginning
-  Way told_ = Way::Zero();                                    // likewise
+  Displacement told_ = Displacement::Zero();                  // likewise
   double told_speed_ = 0.0;                                   // [m/s] lately
 
   Slot last_mean_;                   // of the last slot with poses
@@ -75,7 +75,7 @@ class MotionMonitor {
 
   Attempts attempts_;
   Eigen::Vector2d failed_at_world_ = Eigen::Vector2d::Zero();  // [m]
-  Eigen::Vector2d way_in_vain_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d displacement_in_vain_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace spf::host

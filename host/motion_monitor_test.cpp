@@ -60,7 +60,7 @@ TEST(MotionMonitor, FindsARobotThatDoesNotMoveWithinASecondAndALittle) {
         EXPECT_GE(found, 0.5);
         EXPECT_LE(found, 1.3) << tick << ", " << share << ", " << speed;
         EXPECT_EQ(drive.monitor.failures(), 1);
-        EXPECT_GT(drive.monitor.way_in_vain().x(), 0.0);
+        EXPECT_GT(drive.monitor.displacement_in_vain().x(), 0.0);
       }
 }
 
@@ -69,7 +69,7 @@ TEST(MotionMonitor, FindsOneThatIsKeptFromTurning) {
   const Eigen::Vector3d turn{0.0, 0.0, 1.0};
   EXPECT_TRUE(std::isinf(drive.run(turn, 1.0, 20.0)));  // three times around
   EXPECT_LE(drive.run(turn, 0.0, 5.0), 1.3);
-  EXPECT_EQ(drive.monitor.way_in_vain(), (Eigen::Vector2d{0.0, 0.0}));
+  EXPECT_EQ(drive.monitor.displacement_in_vain(), (Eigen::Vector2d{0.0, 0.0}));
 }
 
 TEST(MotionMonitor, TakesNoRobotForStuckThatMovesStandsOrIsNotWellSeen) {

@@ -14,10 +14,10 @@ constexpr int kEnoughMessages = 10;  // of which one would have come in time
 /// Enters one more into the smallest of `count` in order, as far as there is room for it.
 template <std::size_t kRoom>
 void keep_smallest(std::array<double, kRoom>& smallest, int count, double value) {
-  std::size_t place = std::min(static_cast<std::size_t>(count), kRoom);
-  for (; place > 0 && value < smallest[place - 1]; --place)
-    if (place < kRoom) smallest[place] = smallest[place - 1];
-  if (place < kRoom) smallest[place] = value;
+  std::size_t slot = std::min(static_cast<std::size_t>(count), kRoom);
+  for (; slot > 0 && value < smallest[slot - 1]; --slot)
+    if (slot < kRoom) smallest[slot] = smallest[slot - 1];
+  if (slot < kRoom) smallest[slot] = value;
 }
 
 }  // namespace
@@ -59,8 +59,8 @@ double PeerClocks::error_of(const Record& record, double now) const {
 }
 
 double PeerClocks::error(int robot_id, double now) const {
-  const auto place = known_.find(robot_id);
-  return place == known_.end() ? 0.0 : error_of(place->second, now);
+  const auto entry = known_.find(robot_id);
+  return entry == known_.end() ? 0.0 : error_of(entry->second, now);
 }
 
 std::map<int, double> PeerClocks::errors(double now) const {

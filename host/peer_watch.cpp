@@ -65,9 +65,10 @@ std::optional<HeardMessage> PeerWatch::admitted(const HeardMessage& message, dou
 }
 
 void PeerWatch::complain(int robot_id, PeerFault fault, const std::string& text, double now) {
-  for (auto place = complaints_.begin(); place != complaints_.end();) {
-    const bool past = now - place->second.time > kComplaintTime || place->second.time > now + kComplaintTime;
-    place = past ? complaints_.erase(place) : std::next(place);
+  for (auto complaint = complaints_.begin(); complaint != complaints_.end();) {
+    const bool past =
+        now - complaint->second.time > kComplaintTime || complaint->second.time > now + kComplaintTime;
+    complaint = past ? complaints_.erase(complaint) : std::next(complaint);
   }
   const std::pair<int, PeerFault> key{robot_id, fault};
   if (complaints_.size() >= kMostComplaints && complaints_.count(key) == 0) return;

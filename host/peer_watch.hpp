@@ -1,5 +1,5 @@
 // Which peers are at odds with this robot, and what becomes of what they say: one that has the same number,
-// or whose clock is off, is kept away from as from a stranger, who goes first and whose word explains
+// or whose clock is off, is kept away from as from a stranger, who goes first and whose word masks
 // nothing; one that speaks in another frame, or nonsense, is not heard at all. Frame: world; times are the
 // host's [s].
 #pragma once
@@ -46,14 +46,14 @@ class PeerWatch {
   /// A well-formed message as the robot should hear it; nothing when it is its own.
   [[nodiscard]] std::optional<HeardMessage> admitted(const HeardMessage& message, double now);
   /// One that was admitted and believed.
-  void believed(const TrajectoryMessage& message, double now) { witness_.hear(message, now); }
+  void believed(const TrajectoryMessage& message, double now) { witness_.add_message(message, now); }
   /// A message of a peer that is not heard, and why; or more about one that is at odds.
   void complain(int robot_id, PeerFault fault, const std::string& text, double now);
 
-  void see(const RangeScan& scan, const Pose2& pose_world, double time, const std::vector<Peer>& peers) {
-    witness_.see(scan, pose_world, time, peers);
+  void add_scan(const RangeScan& scan, const Pose2& pose_world, double time, const std::vector<Peer>& peers) {
+    witness_.add_scan(scan, pose_world, time, peers);
   }
-  /// Those of the peers whose word explains nothing that a scan shows, in their order.
+  /// Those of the peers whose word masks no returns, in their order.
   [[nodiscard]] std::vector<int> distrusted(const std::vector<Peer>& peers, double time) const;
 
   /// Of the last seconds, by number.

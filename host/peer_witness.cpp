@@ -10,7 +10,7 @@ namespace spf::host {
 namespace {
 
 constexpr double kSilence = 2.0;    // [s] after which a peer is a new one
-constexpr double kProbation = 1.0;  // [s] for which a new peer explains nothing
+constexpr double kProbation = 1.0;  // [s] for which a new peer masks nothing
 constexpr double kMemory = 1.0;     // [s] time constant of its jumps
 constexpr double kMostJumps = 1.0;  // [radii] honest plans join; braking that is heard late differs by less
 constexpr double kDoubt = 2.0;      // [s] for which a peer that was not there is not believed
@@ -18,7 +18,7 @@ constexpr double kMiddle = 0.3;     // [1] of its radius: errors of poses and cl
 
 }  // namespace
 
-void PeerWitness::hear(const TrajectoryMessage& message, double now) {
+void PeerWitness::add_message(const TrajectoryMessage& message, double now) {
   if (message.trajectory.empty()) return;
   if (known_.count(message.robot_id) == 0 && !make_room(now)) return;  // and is not trusted
   const auto [entry, is_new] = known_.try_emplace(message.robot_id);
@@ -46,8 +46,8 @@ bool PeerWitness::make_room(double now) {
   return true;
 }
 
-void PeerWitness::see(const RangeScan& scan, const Pose2& pose_world, double time,
-                      const std::vector<Peer>& peers) {
+void PeerWitness::add_scan(const RangeScan& scan, const Pose2& pose_world, double time,
+                           const std::vector<Peer>& peers) {
   if (scan.ranges.empty() || scan.angle_increment == 0.0) return;
   for (const Peer& peer : peers) {
     const auto entry = known_.find(peer.robot_id);

@@ -1,5 +1,5 @@
-// Whose word may explain what a scan shows. A peer's disc hides returns from the static map, since they are
-// the peer itself; a peer that is not where it says it is must not hide anything. So it has to be heard for a
+// Whose word may mask returns. A peer's disc keeps its returns out of the static map, since they are the
+// peer itself; a peer that is not where it says it is must not mask anything. So it has to be heard for a
 // while, to do what it said before, and to be seen when it is in plain view. Frame: world; times are the
 // host's [s]. It remembers at most kMostPeers of them.
 #pragma once
@@ -17,10 +17,10 @@ namespace spf::host {
 class PeerWitness {
  public:
   /// A message that was believed.
-  void hear(const TrajectoryMessage& message, double now);
+  void add_message(const TrajectoryMessage& message, double now);
   /// A scan of the robot's centre: beams that pass through the middle of a peer's disc show that it is not
   /// there.
-  void see(const RangeScan& scan, const Pose2& pose_world, double time, const std::vector<Peer>& peers);
+  void add_scan(const RangeScan& scan, const Pose2& pose_world, double time, const std::vector<Peer>& peers);
   [[nodiscard]] bool trusts(int robot_id, double now) const;
   void forget() { known_.clear(); }
 

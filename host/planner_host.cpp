@@ -99,7 +99,7 @@ ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, doubl
 
 /// Before the scan enters the map: whose discs are not to hide what it shows.
 void PlannerHost::doubt_peers(const Observation& observation, const Pose2& pose_world) {
-  peer_watch_.see(*observation.scan, pose_world, observation.time, agent_->peers());
+  peer_watch_.add_scan(*observation.scan, pose_world, observation.time, agent_->peers());
   agent_->set_distrusted(peer_watch_.distrusted(agent_->peers(), observation.time));
 }
 
@@ -323,7 +323,7 @@ PlannerStatus PlannerHost::status() const {
   const AgentStatus status = agent_->status();
   if (stop_cause_ != StopCause::none) return {status.state, to_string(stop_cause_), -1};
   if (recovery_.aside() && status.reason == StopCause::none) return {status.state, "backs off", -1};
-  return {status.state, to_string(status.reason), status.culprit};
+  return {status.state, to_string(status.reason), status.blocking_id};
 }
 
 std::string PlannerHost::fault() const {

@@ -55,7 +55,7 @@ struct PlannerOutput {
 struct PlannerStatus {
   PeerState state = PeerState::stopped;
   std::string reason;  ///< "moving", "arrived", "no pose", "no scan", "waits for the map", ...
-  int culprit = -1;
+  int blocking_id = -1;
 };
 
 struct PlannerCounts {

@@ -46,9 +46,10 @@ void Recovery::look(double now, const Localiser& localiser, const RobotAgent& ag
 
 void Recovery::begin_to_back_off(double now, const Localiser& localiser) {
   const MotionMonitor& motion = localiser.motion();
-  const double way = motion.way_in_vain().norm();
-  if (motion.failures() <= kReplanFirst || backed_off_in_vain_ || way <= 0.0) return;
-  aside_ = localiser.state().estimate.pose_world.position_world - distance_ / way * motion.way_in_vain();
+  const double length = motion.displacement_in_vain().norm();
+  if (motion.failures() <= kReplanFirst || backed_off_in_vain_ || length <= 0.0) return;
+  aside_ = localiser.state().estimate.pose_world.position_world -
+           distance_ / length * motion.displacement_in_vain();
   aside_until_ = now + longest_time_;
 }
 

@@ -1,6 +1,6 @@
 // How the planning half gets a stuck robot going again: it stands, waits and plans anew from where it is;
-// from the second failure in a row on it first backs off, away from what it pushed against, as far as the way
-// there is free. Frame: world; times are the host's [s].
+// from the second failure in a row on it first backs off, away from what it pushed against, as far as it is
+// free there. Frame: world; times are the host's [s].
 #pragma once
 
 #include <Eigen/Core>
@@ -37,7 +37,7 @@ class Recovery {
 
   double distance_ = 0.0;      // [m] to back off
   double longest_time_ = 0.0;  // [s] for that
-  double near_ = 0.0;          // [m] of the place aside: there
+  double near_ = 0.0;          // [m] of the position aside: there
   ProgressMonitor progress_;
   bool pushes_in_vain_ = false;
   bool backed_off_in_vain_ = false;  // the last time that it pushed in vain

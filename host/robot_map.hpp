@@ -9,16 +9,6 @@
 
 namespace spf::host {
 
-/// Node distance and reach [m] of a robot's map. The defaults follow the robot's size.
-struct MapGrain {
-  double resolution = HostParameters{}.map_resolution;
-  double reach = HostParameters{}.map_reach;
-
-  [[nodiscard]] static MapGrain of(const HostParameters& host) {
-    return {host.map_resolution, host.map_reach};
-  }
-};
-
 /// Distances reach over so many nodes at least [1].
 inline constexpr double kLeastReach = 4.0;
 
@@ -34,7 +24,7 @@ inline constexpr double kLeastReach = 4.0;
 [[nodiscard]] inline OccupancyMap sensed_map(const Eigen::Vector2d& centre_world,
                                              const HostParameters& host) {
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * host.grid_size);
-  OccupancyMap map = empty_map(centre_world - half, centre_world + half, MapGrain::of(host));
+  OccupancyMap map = empty_map(centre_world - half, centre_world + half, host.map_grain);
   map.mark_unexplored();
   return map;
 }

@@ -109,9 +109,10 @@ ScanGuard::ScanGuard(const GuardParameters& parameters, const AgentParameters& a
   constexpr double kSpare = 1.2;  // commands may be a little beyond the planned speed
   const double fastest = kSpare * robot_.max_speed;
   const double stopping_time = stale_time_ + reaction_time_ + fastest / robot_.max_acceleration;
-  const double stopping_way = fastest * reaction_time_ + 0.5 * fastest * fastest / robot_.max_acceleration;
-  reach_ =
-      robot_.radius + 2.0 * parameters_.margin + stopping_way + parameters_.fastest_approach * stopping_time;
+  const double stopping_distance =
+      fastest * reaction_time_ + 0.5 * fastest * fastest / robot_.max_acceleration;
+  reach_ = robot_.radius + 2.0 * parameters_.margin + stopping_distance +
+           parameters_.fastest_approach * stopping_time;
 }
 
 double ScanGuard::scan_age(double now) const {
@@ -159,9 +160,9 @@ void ScanGuard::collect(const RangeScan& scan, const Pose2& sensor_in_body, cons
   const auto keep = [&](std::size_t beam, double range, std::vector<Eigen::Vector2d>& kept) {
     if (range > farthest) return;
     const double angle = scan.angle_min + scan.angle_increment * static_cast<double>(beam);
-    const Eigen::Vector2d place = sensor.point(range * Eigen::Vector2d{std::cos(angle), std::sin(angle)});
-    const double distance = place.norm();
-    if (distance >= parameters_.own_radius && distance <= reach_) kept.push_back(robot.point(place));
+    const Eigen::Vector2d position = sensor.point(range * Eigen::Vector2d{std::cos(angle), std::sin(angle)});
+    const double distance = position.norm();
+    if (distance >= parameters_.own_radius && distance <= reach_) kept.push_back(robot.point(position));
   };
   for (std::size_t beam = 0; beam < scan.ranges.size(); ++beam) {
     const double agreed = readings.agreed(beam);
@@ -176,13 +177,13 @@ void ScanGuard::collect(const RangeScan& scan, const Pose2& sensor_in_body, cons
 void ScanGuard::confirm(Sweep& sweep, const Sweep& before) const {
   if (!(sweep.time - before.time <= stale_time_)) return;
   const double near = kSamePlace * robot_.radius;
-  for (const Eigen::Vector2d& place : sweep.alone) {
+  for (const Eigen::Vector2d& point : sweep.alone) {
     const auto is_near = [&](const Eigen::Vector2d& other) {
-      return (other - place).squaredNorm() <= near * near;
+      return (other - point).squaredNorm() <= near * near;
     };
     if (std::any_of(before.alone.begin(), before.alone.end(), is_near) ||
         std::any_of(before.seen.begin(), before.seen.end(), is_near))
-      sweep.seen.push_back(place);
+      sweep.seen.push_back(point);
   }
 }
 
@@ -218,19 +219,20 @@ Eigen::Vector2d ScanGuard::setting_out(const Eigen::Vector2d& commanded) const {
   return follows ? Eigen::Vector2d{moves / speed} : commanded;
 }
 
-double ScanGuard::way_through(const Sweep& sweep, const SweptArc& arc) const {
+double ScanGuard::free_distance(const Sweep& sweep, const SweptArc& arc) const {
   const Eigen::Vector2d here = motion_.here().position_world;
-  double way = kInfinity;
-  for (const Eigen::Vector2d& place : sweep.seen) way = std::min(way, arc.way_to(place - here));
-  return way;
+  double distance = kInfinity;
+  for (const Eigen::Vector2d& point : sweep.seen)
+    distance = std::min(distance, arc.distance_to(point - here));
+  return distance;
 }
 
-/// The way, and how fast what ends it came nearer over the last scans; what appeared at once is not known to
-/// move. Differences that may be noise count for the nearer, so that it does not creep on by luck, and a
-/// robot that `stood` waits for two scans without what it stood before.
+/// The free distance, and how fast what ends it came nearer over the last scans; what appeared at once is not
+/// known to move. Differences that may be noise count for the nearer, so that it does not creep on by luck,
+/// and a robot that `stood` waits for two scans without what it stood before.
 GuardVerdict ScanGuard::look_along(const SweptArc& arc, bool stood) const {
   GuardVerdict seen;
-  const double newest = seen.way = way_through(sweep(0), arc);
+  const double newest = seen.free_distance = free_distance(sweep(0), arc);
   if (std::isinf(newest) && !stood) return seen;
   const double noise = kNoise * robot_.radius;
   double slowest = kInfinity;
@@ -238,10 +240,11 @@ GuardVerdict ScanGuard::look_along(const SweptArc& arc, bool stood) const {
   for (std::size_t ago = 1; ago < kSweeps; ++ago) {
     const double elapsed = sweep(0).time - sweep(ago).time;
     if (!(elapsed <= 2.0 * stale_time_)) break;
-    const double way = way_through(sweep(ago), arc);
-    change = way - newest;
+    const double before = free_distance(sweep(ago), arc);
+    change = before - newest;
     slowest = std::min(slowest, change / elapsed);
-    if (std::abs(change) < noise || (stood && ago == 1)) seen.way = std::min(seen.way, way);
+    if (std::abs(change) < noise || (stood && ago == 1))
+      seen.free_distance = std::min(seen.free_distance, before);
   }
   const bool comes = change > noise && slowest > 0.0 && slowest <= parameters_.fastest_approach;
   if (comes) seen.closing_speed = slowest;
@@ -250,7 +253,7 @@ GuardVerdict ScanGuard::look_along(const SweptArc& arc, bool stood) const {
 
 /// What it takes from a speed [m/s] to standstill, on an arc whose curvature takes its share of the
 /// acceleration: dv/dt = -sqrt(a^2 - (k v^2)^2).
-double ScanGuard::stopping_way(double speed, double curvature, double closing) const {
+double ScanGuard::stopping_distance(double speed, double curvature, double closing) const {
   const double most = robot_.max_acceleration;
   const double share = std::min(1.0, curvature * speed * speed / most);  // of the curve
   constexpr double kStraight = 1e-4;
@@ -262,13 +265,13 @@ double ScanGuard::stopping_way(double speed, double curvature, double closing) c
 /// The largest speed up to a given one from which it can stop within the room [m], while what comes nearer
 /// does.
 double ScanGuard::admissible_speed(double room, double speed, double curvature, double closing) const {
-  if (stopping_way(speed, curvature, closing) <= room) return speed;
+  if (stopping_distance(speed, curvature, closing) <= room) return speed;
   constexpr int kHalvings = 20;
   double low = 0.0;
   double high = speed;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
-    (stopping_way(middle, curvature, closing) <= room ? low : high) = middle;
+    (stopping_distance(middle, curvature, closing) <= room ? low : high) = middle;
   }
   return low;
 }
@@ -283,7 +286,7 @@ bool ScanGuard::must_brake_first(const Eigen::Vector2d& command) const {
   const double aside = std::abs(cross(moves, command)) / speed;
   if (aside <= kAtOnce * reaction_time_ * robot_.max_acceleration) return false;
   const SweptArc straight{Placement{motion_.here()}.direction(moves / speed), 0.0, robot_.radius};
-  return way_through(sweep(0), straight) < parameters_.margin + stopping_way(speed, 0.0, 0.0);
+  return free_distance(sweep(0), straight) < parameters_.margin + stopping_distance(speed, 0.0, 0.0);
 }
 
 const GuardVerdict& ScanGuard::judge(double now, const Eigen::Vector3d& twist_body) {
@@ -293,10 +296,11 @@ const GuardVerdict& ScanGuard::judge(double now, const Eigen::Vector3d& twist_bo
   if (!sees(now) || !(speed > kCreep * robot_.max_speed)) return verdict_;
   const SweptArc arc = arc_of(now, twist_body);
   verdict_ = look_along(arc, stood);
-  if (std::isfinite(verdict_.way)) {
-    // Having stopped, it waits for a way worth going.
+  if (std::isfinite(verdict_.free_distance)) {
+    // Having stopped, it waits for a distance worth going.
     const double margin = parameters_.margin + (stood ? kNoise * robot_.radius : 0.0);
-    const double room = verdict_.way - margin - verdict_.closing_speed * std::max(0.0, scan_age(now));
+    const double room =
+        verdict_.free_distance - margin - verdict_.closing_speed * std::max(0.0, scan_age(now));
     verdict_.scale = admissible_speed(room, speed, arc.curvature(), verdict_.closing_speed) / speed;
   }
   if (verdict_.scale >= 1.0 && !must_brake_first(twist_body.head<2>())) return verdict_;

@@ -1,7 +1,7 @@
 // The guard below everything: whatever plan, map and tracks say, a robot goes no faster than lets it stop
 // before what its scanner shows in its way. Every command is held against the newest scan: the disc of the
 // robot is swept along the arc that the command leads along, and the command is scaled down until reaction
-// and braking fit into the way that is free. What comes towards the robot is stopped for while it comes.
+// and braking fit into the distance that is free. What comes towards the robot is stopped for while it comes.
 //
 // Three zones of a collision monitor in one rule: `stops` within the margin, `slows` within what it takes to
 // brake, and the approach by closing speed. Only what is in the way counts: a robot may pass a wall, go
@@ -35,8 +35,9 @@ enum class GuardAction { none, slows, stops };
 struct GuardVerdict {
   GuardAction action = GuardAction::none;
   double scale = 1.0;  ///< [1] of the command that is let through; when it stops, turning on the spot is too
-  double way = std::numeric_limits<double>::infinity();  ///< [m] as commanded, until the robot touches
-  double closing_speed = 0.0;                            ///< [m/s] of what is there
+  double free_distance =
+      std::numeric_limits<double>::infinity();  ///< [m] as commanded, until the robot touches
+  double closing_speed = 0.0;                   ///< [m/s] of what is there
 };
 
 struct GuardCounts {
@@ -87,9 +88,9 @@ class ScanGuard {
   void confirm(Sweep& sweep, const Sweep& before) const;
   [[nodiscard]] SweptArc arc_of(double now, const Eigen::Vector3d& twist_body);
   [[nodiscard]] Eigen::Vector2d setting_out(const Eigen::Vector2d& commanded) const;
-  [[nodiscard]] double way_through(const Sweep& sweep, const SweptArc& arc) const;
+  [[nodiscard]] double free_distance(const Sweep& sweep, const SweptArc& arc) const;
   [[nodiscard]] GuardVerdict look_along(const SweptArc& arc, bool stood) const;
-  [[nodiscard]] double stopping_way(double speed, double curvature, double closing) const;
+  [[nodiscard]] double stopping_distance(double speed, double curvature, double closing) const;
   [[nodiscard]] double admissible_speed(double room, double speed, double curvature, double closing) const;
   [[nodiscard]] bool must_brake_first(const Eigen::Vector2d& command) const;
   void count(double now);

@@ -91,7 +91,7 @@ TEST(ScanGuard, TwoBeamsAtThreeMetresAreAThing) {
   RangeScan scan = world.sweep();
   scan.ranges[359] = scan.ranges[360] = 3.0;
   ASSERT_TRUE(world.guard.add_scan(10.0, scan, Pose2{}, 10.0));
-  EXPECT_NEAR(world.guard.judge(10.0, {1.0, 0.0, 0.0}).way, 2.7, 0.001);
+  EXPECT_NEAR(world.guard.judge(10.0, {1.0, 0.0, 0.0}).free_distance, 2.7, 0.001);
 }
 
 TEST(ScanGuard, StopsForAPersonWhoStepsInAMetreAhead) {
@@ -262,10 +262,10 @@ TEST(ScanGuard, CarriesAScanAlongAsTheWheelsMove) {
   world.guard.moves(10.0, ahead);
   world.guard.moves(10.1, ahead);
   ASSERT_TRUE(world.guard.add_scan(10.05, scan, Pose2{}, 10.12));  // of 0.05 m ago
-  EXPECT_NEAR(world.guard.judge(10.1, ahead).way, 1.65, 1e-9);
+  EXPECT_NEAR(world.guard.judge(10.1, ahead).free_distance, 1.65, 1e-9);
   world.guard.moves(10.2, {1.0, 0.0, 5.0});
   world.guard.moves(10.3, {0.0, 0.0, 5.0});
-  EXPECT_EQ(world.guard.judge(10.3, ahead).way, kNothing);  // it has turned away
+  EXPECT_EQ(world.guard.judge(10.3, ahead).free_distance, kNothing);  // it has turned away
 }
 
 TEST(ScanGuard, TakesAScannerAnywhereOnTheRobot) {
@@ -275,7 +275,7 @@ TEST(ScanGuard, TakesAScannerAnywhereOnTheRobot) {
   for (std::size_t i = 0; i < 10; ++i) scan.ranges[i] = 2.0;  // to the sensor's rear: ahead of the robot
   for (std::size_t i = 710; i < 720; ++i) scan.ranges[i] = 2.0;
   ASSERT_TRUE(world.guard.add_scan(10.0, scan, behind, 10.0));
-  EXPECT_NEAR(world.guard.judge(10.0, {1.0, 0.0, 0.0}).way, 1.5, 0.01);
+  EXPECT_NEAR(world.guard.judge(10.0, {1.0, 0.0, 0.0}).free_distance, 1.5, 0.01);
 }
 
 TEST(ScanGuard, TakesAScannerThatHangsUpsideDown) {
@@ -289,7 +289,7 @@ TEST(ScanGuard, TakesAScannerThatHangsUpsideDown) {
             .value();
     make_plain(driver, NoReturn::infinite);
     ASSERT_TRUE(world.guard.add_scan(10.0, driver.scan, driver.mount.in_body, 10.0));
-    const double way = world.guard.judge(10.0, {0.0, side, 0.0}).way;
+    const double way = world.guard.judge(10.0, {0.0, side, 0.0}).free_distance;
     if (side > 0.0)
       EXPECT_NEAR(way, 1.7, 0.01);
     else

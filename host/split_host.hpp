@@ -63,8 +63,8 @@ class TrackerProcess {
   PlanVerdict add_plan(const TrajectoryMessage& message, double now) {
     return tracker_.add_plan(message, tell_time(now));
   }
-  /// For the guard: a scan from its sensor's place in the body. False when it is refused: not of the present,
-  /// malformed, or half blind.
+  /// For the guard: a scan from its sensor's position in the body. False when it is refused: not of the
+  /// present, malformed, or half blind.
   bool add_scan(double time, const RangeScan& scan, const Pose2& sensor_in_body, double now);
   /// As RobotHost::applied.
   void applied(double time, const Eigen::Vector3d& wheel_speeds) {

@@ -26,18 +26,18 @@ SweptArc::SweptArc(const Eigen::Vector2d& direction, double curvature, double ra
       turn_{turn_of(curvature)},
       radius_{radius} {}
 
-double SweptArc::straight_way_to(double along, double aside) const {
+double SweptArc::straight_distance_to(double along, double aside) const {
   const double room = radius_ * radius_ - aside * aside;
   if (along <= 0.0 || room <= 0.0) return kOutOfTheWay;
   return along - std::sqrt(room);
 }
 
-double SweptArc::way_to(const Eigen::Vector2d& point) const {
+double SweptArc::distance_to(const Eigen::Vector2d& point) const {
   const double along = direction_.dot(point);
   const double aside = side_ * cross(direction_, point);
   const double squared_distance = point.squaredNorm();
   if (squared_distance <= radius_ * radius_) return along > 0.0 ? 0.0 : kOutOfTheWay;
-  if (std::isinf(turn_)) return straight_way_to(along, aside);
+  if (std::isinf(turn_)) return straight_distance_to(along, aside);
 
   // Seen from the middle of the arc: the point lies `past` [m] outside of it, so that the disc touches it
   // from `half_width` [rad] before it is abreast of it.

@@ -14,12 +14,12 @@ class SweptArc {
 
   /// How far [m] the centre gets until the disc touches a point [m]: 0 when it does already and comes nearer
   /// still, infinite when it never does within one turn, or leaves a point that it touches.
-  [[nodiscard]] double way_to(const Eigen::Vector2d& point) const;
+  [[nodiscard]] double distance_to(const Eigen::Vector2d& point) const;
 
   [[nodiscard]] double curvature() const { return 1.0 / turn_; }  ///< [1/m] to whatever side
 
  private:
-  [[nodiscard]] double straight_way_to(double along, double aside) const;
+  [[nodiscard]] double straight_distance_to(double along, double aside) const;
 
   Eigen::Vector2d direction_;
   double side_;    // +1: turns left, -1: right

@@ -39,7 +39,7 @@ TEST(SweptArc, FindsTheFirstTouchThatASearchFinds) {
     if (point.norm() <= 0.31) continue;
     const SweptArc arc{{std::cos(heading), std::sin(heading)}, curvature, 0.3};
     const double expected = searched_way(point, heading, curvature, 0.3);
-    const double way = arc.way_to(point);
+    const double way = arc.distance_to(point);
     // A search in steps misses what it only grazes.
     if (std::isinf(expected) && !std::isinf(way)) {
       EXPECT_NEAR((point - centre_after(way, heading, curvature)).norm(), 0.3, 1e-4);
@@ -55,21 +55,21 @@ TEST(SweptArc, FindsTheFirstTouchThatASearchFinds) {
 TEST(SweptArc, ALargeTurnIsAStraightLineToTheLastMillimetre) {
   const Eigen::Vector2d ahead{1.0, 0.0};
   for (const double aside : {-0.29, -0.1, 0.0, 0.2}) {
-    const double straight = SweptArc{ahead, 0.0, 0.3}.way_to({5.0, aside});
+    const double straight = SweptArc{ahead, 0.0, 0.3}.distance_to({5.0, aside});
     for (const double curvature : {1.1e-6, -1.1e-6, 1e-8})
-      EXPECT_NEAR(SweptArc(ahead, curvature, 0.3).way_to({5.0, aside}), straight, 1e-3);
+      EXPECT_NEAR(SweptArc(ahead, curvature, 0.3).distance_to({5.0, aside}), straight, 1e-3);
   }
 }
 
 TEST(SweptArc, WhatItTouchesEndsTheWayTowardsItAlone) {
   for (const double curvature : {0.0, 1.0, -3.0}) {
     const SweptArc arc{{1.0, 0.0}, curvature, 0.3};
-    EXPECT_EQ(arc.way_to({0.2, 0.1}), 0.0);
-    EXPECT_EQ(arc.way_to({-0.2, 0.1}), kNeverTouches);
-    EXPECT_EQ(arc.way_to({0.0, 0.29}), kNeverTouches);
+    EXPECT_EQ(arc.distance_to({0.2, 0.1}), 0.0);
+    EXPECT_EQ(arc.distance_to({-0.2, 0.1}), kNeverTouches);
+    EXPECT_EQ(arc.distance_to({0.0, 0.29}), kNeverTouches);
   }
-  EXPECT_EQ(SweptArc(Eigen::Vector2d{1.0, 0.0}, 0.0, 0.3).way_to({5.0, 0.31}), kNeverTouches);
-  EXPECT_EQ(SweptArc(Eigen::Vector2d{1.0, 0.0}, 0.0, 0.3).way_to({-5.0, 0.0}), kNeverTouches);
+  EXPECT_EQ(SweptArc(Eigen::Vector2d{1.0, 0.0}, 0.0, 0.3).distance_to({5.0, 0.31}), kNeverTouches);
+  EXPECT_EQ(SweptArc(Eigen::Vector2d{1.0, 0.0}, 0.0, 0.3).distance_to({-5.0, 0.0}), kNeverTouches);
 }
 
 }  // namespace

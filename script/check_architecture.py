@@ -6,6 +6,7 @@ other rooms (in tests by TEST_DEPENDS too); rooms form no circle; a core room us
 Purity: the sources of spf/ hold no file, stream, clock, thread, outside randomness, changeable static or global, and
 no ROS. spf/testing is free of this, and so are tests: what is named *_test or lies in a folder called test.
 Threads: outside tests, room `parallel` alone starts and guards them.
+Page: the diagram of docs/architecture.md has the arrows of the DEPENDS and no others, its table every room.
 Prints FILE:LINE: sentence for each breach; exit status 1 if there is one.
 """
 import functools
@@ -15,6 +16,7 @@ import sys
 from pathlib import Path
 
 CORE = "spf"
+PAGE = "docs/architecture.md"
 SKIPPED_FOLDERS = {"build", "node_modules", ".git", "results"}
 SOURCE_SUFFIXES = {".cpp", ".hpp"}
 
@@ -158,6 +160,32 @@ def check_rooms(rooms):
                     yield f"{where}:1: core room {room.name} uses {library}; the core uses Eigen alone"
 
 
+def check_page(root, rooms):
+    """Does docs/architecture.md show the rooms and arrows that there are?"""
+    page = root / PAGE
+    if not page.is_file():
+        yield f"{PAGE}:1: is missing"
+        return
+    drawn, listed, in_diagram = {}, set(), False
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        if line.startswith("```"):
+            in_diagram = line == "```mermaid"
+        arrow = re.fullmatch(r"\s*(\w+) --> (\w+)", line)
+        if in_diagram and arrow:
+            drawn[arrow.groups()] = number
+        row = re.match(r"\| `([\w/]+)` \|", line)
+        if row:
+            listed.add(row.group(1))
+    meant = {(room.name, used) for room in rooms.values() for used in room_names(room.depends)}
+    for arrow in sorted(drawn.keys() - meant):
+        yield f"{PAGE}:{drawn[arrow]}: draws {arrow[0]} --> {arrow[1]}, but room {arrow[0]} does not depend on {arrow[1]}"
+    for name, used in sorted(meant - drawn.keys()):
+        yield f"{PAGE}:1: does not draw {name} --> {used}, though room {name} depends on {used}"
+    for room in rooms.values():
+        if str(room.folder) not in listed:
+            yield f"{PAGE}:1: its table of rooms lacks {room.folder}"
+
+
 def owner_of(rooms, file):
     """The room of the nearest folder above the file that is one."""
     by_folder = {str(room.folder): room for room in rooms.values()}
@@ -213,7 +241,7 @@ def check(root):
     rooms = read_rooms(root, files)
     if not rooms:
         return ["CMakeLists.txt:1: found no rooms"]
-    breaches = list(check_rooms(rooms))
+    breaches = list(check_rooms(rooms)) + list(check_page(root, rooms))
     for file in files:
         room = owner_of(rooms, file)
         if room is None or file.suffix not in SOURCE_SUFFIXES:

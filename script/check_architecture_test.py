@@ -45,6 +45,37 @@ class Copy(unittest.TestCase):
         self.assertEqual(self.breaches_of(file, text), [])
 
 
+class Page(unittest.TestCase):
+    """The page of a house with two rooms."""
+
+    def breaches_with(self, page):
+        with tempfile.TemporaryDirectory() as scratch:
+            root = Path(scratch)
+            for room, depends in (("low", "Eigen3::Eigen"), ("high", "spf::low")):
+                (root / "spf" / room).mkdir(parents=True)
+                (root / "spf" / room / "CMakeLists.txt").write_text(f"spf_room({room} DEPENDS {depends})\n", encoding="utf-8")
+            if page is not None:
+                (root / "docs").mkdir()
+                (root / "docs" / "architecture.md").write_text(page, encoding="utf-8")
+            return check_architecture.check(root)
+
+    TABLE = "| `spf/low` | ground |\n| `spf/high` | roof |\n"
+
+    def test_what_there_is_passes(self):
+        self.assertEqual(self.breaches_with(self.TABLE + "```mermaid\ngraph BT\n  high --> low\n```\n"), [])
+
+    def test_a_missing_page_or_arrow_or_room_is_caught(self):
+        self.assertEqual(len(self.breaches_with(None)), 1)
+        self.assertEqual(self.breaches_with(self.TABLE + "```mermaid\ngraph BT\n```\nhigh --> low\n"),
+                         ["docs/architecture.md:1: does not draw high --> low, though room high depends on low"])
+        self.assertEqual(self.breaches_with("| `spf/low` | ground |\n```mermaid\n  high --> low\n```\n"),
+                         ["docs/architecture.md:1: its table of rooms lacks spf/high"])
+
+    def test_an_arrow_that_is_none_is_caught(self):
+        found = self.breaches_with(self.TABLE + "```mermaid\n  high --> low\n  low --> high\n```\n")
+        self.assertEqual(found, ["docs/architecture.md:5: draws low --> high, but room low does not depend on high"])
+
+
 class Arrows(Copy):
     def test_upward_include_is_caught(self):
         self.assert_caught(PURE, '#include <cmath>\n#include "spf/team/robot_agent.hpp"\n', 2, "does not depend on team")

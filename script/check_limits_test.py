@@ -33,6 +33,9 @@ class Limits(unittest.TestCase):
         for name in ("host/long.cpp", "report/page.js", "tools/long.py"):
             self.assert_caught(name, "\n" * 401, "401 lines, at most 400")
             self.assert_passes(name, "\n" * 400)
+        for first in ("#!/usr/bin/env bash", "#!/bin/sh", "#!/usr/bin/env python3"):
+            self.assert_caught("tools/long", first + "\n" * 401, "401 lines, at most 400")
+        self.assert_passes("data/long", "bash\n" * 401)
 
     def test_tests_may_be_long(self):
         for name in ("host/long_test.cpp", "report/test/sample.cpp", "fuzz/any.cpp", "ros/x/test/y_rostest.py"):
@@ -44,6 +47,18 @@ class Limits(unittest.TestCase):
         self.assert_caught("spf/thing.cpp", source(61), "cpp:2: spf::Thing::act has 61 lines, at most 60")
         self.assert_passes("spf/thing.cpp", source(60))
 
+    def test_functions_of_scripts(self):
+        def source(head, line, lines, tail):
+            return "\n" + head + "\n" + line * (lines - 1 - len(tail)) + "".join(tail) + "\n"
+        for name, head, line, tail in (
+                ("tools/act.py", "def act(a):", "    a += 1\n", []),
+                ("report/act.js", "export function act(a) {", "  a += 1;\n", ["}\n"]),
+                ("report/act.js", "const act = (a) => {", "  a += 1;\n", ["};\n"]),
+                ("report/act.mjs", "  act(a) {", "    a += 1;\n", ["  }\n"]),
+                ("tools/act.sh", "act() {", "  : 1\n", ["}\n"])):
+            self.assert_caught(name, source(head, line, 61, tail), ":2: act has 61 lines, at most 60")
+            self.assert_passes(name, source(head, line, 60, tail))
+
     def test_a_template_with_a_lambda_is_one_function(self):
         source = "template <class T>\nvoid act(T&& t) {\n  t([&] {\n" + "    f();\n" * 60 + "  });\n}\n"
         self.assert_caught("spf/thing.hpp", source, "act has 64 lines")
@@ -54,7 +69,14 @@ class Limits(unittest.TestCase):
                 f"  std::vector<int> member{i}_ = {{1, 2}};\n" for i in range(members)) + "};\n"
         self.assert_caught("spf/thing.hpp", source("class", 21), "hpp:1: Thing has 21 data members, at most 20")
         self.assert_passes("spf/thing.hpp", source("class", 20))
-        self.assert_passes("spf/thing.hpp", source("struct", 30))
+        self.assert_caught("spf/thing.hpp", source("struct", 21), "hpp:1: Thing has 21 data members, at most 20")
+        self.assert_passes("spf/thing.hpp", source("struct", 20))
+
+    def test_a_record_has_as_many_members_as_its_file_has_fields(self):
+        source = "struct Thing {\n" + "".join(f"  int member{i} = 0;\n" for i in range(30)) + (
+            "  template <class Self, class Visitor>\n  static void visit_fields(Self& self, Visitor&& visit) {\n"
+            "    visit(self);\n  }\n};\n")
+        self.assert_passes("spf/thing.hpp", source)
 
     def test_what_hides_behind_a_pointer(self):
         source = "struct Thing::Implementation {\n" + "".join(f"  int member{i} = 0;\n" for i in range(21)) + "};\n"
@@ -64,5 +86,5 @@ class Limits(unittest.TestCase):
 if __name__ == "__main__":
     if shutil.which("ctags") is None:
         print("ctags is not installed (script/setup check)", file=sys.stderr)
-        sys.exit(77)
+        sys.exit(check_limits.no_tool())
     unittest.main()

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "sim/geometry.hpp"
 #include "sim/pedestrian_scene.hpp"
@@ -278,8 +279,8 @@ void make_platform(FamilySetup& setup) {
   setup.robot.max_wheel_torque = 0.005;
   setup.simulation.noise = {NoiseModel::walk, 0.25, 0.01, 0.25};
   setup.simulation.sensing.map = MapKnowledge::sensed;
-  setup.simulation.sensing.map_resolution = 0.02;
-  setup.simulation.sensing.map_max_distance = 0.35;
+  setup.simulation.sensing.map_grain.resolution = 0.02;
+  setup.simulation.sensing.map_grain.reach = 0.35;
   setup.simulation.pose_noise.seam_sigma = 0.02;
   setup.simulation.trial.arrival_distance = 0.03;
 }
@@ -342,12 +343,24 @@ int attempts_for(const LayoutParameters& layout) {
   return std::clamp(kMostThings / (layout.robots + layout.squares + layout.discs + 1), 20, kMaxAttempts);
 }
 
+/// What of the layout found no place in a scene that could not be completed, with how much was wanted.
+std::pair<std::string, int> what_did_not_fit(Family family, const LayoutParameters& layout,
+                                             const Scenario& scenario) {
+  const bool draws_shapes = family != Family::swap && family != Family::field;
+  if (draws_shapes && scenario.boxes.size() < static_cast<std::size_t>(layout.squares))
+    return {"squares", layout.squares};
+  if (draws_shapes && scenario.moving.size() < static_cast<std::size_t>(layout.discs))
+    return {"discs", layout.discs};
+  return {"robots", layout.robots};
+}
+
 }  // namespace
 
 Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) {
   const FamilySetup checked = validated(setup);
   const std::uint64_t trial_seed = mix(seed, static_cast<std::uint64_t>(trial));
   const int attempts = attempts_for(checked.layout);
+  std::pair<std::string, int> crowded;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     Scenario scenario;
     scenario.family = enum_name(checked.family);
@@ -361,11 +374,14 @@ Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) 
       return scenario;
     }
     RandomStream random{mix(trial_seed, static_cast<std::uint64_t>(attempt))};
-    if (!draw_scene(checked.family, random, checked.layout, scenario)) continue;
-    return scenario;
+    if (draw_scene(checked.family, random, checked.layout, scenario)) return scenario;
+    crowded = what_did_not_fit(checked.family, checked.layout, scenario);
   }
-  throw std::runtime_error{"no scene of family " + std::string{enum_name(checked.family)} + " found in " +
-                           std::to_string(attempts) + " attempts: too many shapes for the place"};
+  const auto& [entry, wanted] = crowded;
+  throw NoRoom{"no scene of family " + std::string{enum_name(checked.family)} + " found in " +
+                   std::to_string(attempts) + " attempts: no room for " + std::to_string(wanted) + " " +
+                   entry,
+               entry};
 }
 
 }  // namespace spf::sim

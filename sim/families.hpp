@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "sim/crowd_recording.hpp"
@@ -101,14 +103,19 @@ struct FamilySetup {
   }
 };
 
-inline constexpr std::uint64_t kDefaultSeed = 20240501;
-
 /// The protocol's numbers for a family (docs/protocol.md, Scenes).
 [[nodiscard]] FamilySetup family_setup(Family family);
 
+/// A layout that found no room in many attempts, and what of it did not fit.
+struct NoRoom : std::runtime_error {
+  NoRoom(const std::string& text, std::string of_layout)
+      : std::runtime_error{text}, entry{std::move(of_layout)} {}
+  std::string entry;  ///< of the layout: "squares"
+};
+
 /// Draws the scene of one trial. Throws std::invalid_argument when parameters are out of range or the crowd
-/// of ped is missing, and std::runtime_error when a thousand attempts found no scene (too many things for the
-/// area) or the recording has no such window.
+/// of ped is missing, NoRoom when a thousand attempts found no scene (too many things for the area), and
+/// std::runtime_error when the recording has no such window.
 [[nodiscard]] Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial);
 
 }  // namespace spf::sim

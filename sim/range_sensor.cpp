@@ -77,10 +77,10 @@ void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& di
 bool RangeSensor::sees(const Eigen::Vector2d& from_world, const SeenDisc& target,
                        const std::vector<SeenDisc>& discs) const {
   constexpr double kWithin = 0.99;  // of the radius: a line to the outline itself would only touch the disc
-  const Eigen::Vector2d way = from_world - target.position_world;
-  const double distance = way.norm();
+  const Eigen::Vector2d offset = from_world - target.position_world;
+  const double distance = offset.norm();
   if (distance <= target.radius) return true;
-  const Eigen::Vector2d towards = way / distance;
+  const Eigen::Vector2d towards = offset / distance;
   const Eigen::Vector2d beside{-towards.y(), towards.x()};
   const double cosine = target.radius / distance;  // of the angle between the nearest and a tangent point
   const double sine = std::sqrt(1.0 - cosine * cosine);

@@ -54,7 +54,7 @@ void measure_clearances(const TrialFrame& view, std::size_t robot, double radius
 
 std::string reason_text(const AgentStatus& status) {
   std::string text = to_string(status.reason);
-  if (status.culprit >= 0) text += " " + std::to_string(status.culprit);
+  if (status.blocking_id >= 0) text += " " + std::to_string(status.blocking_id);
   return text;
 }
 
@@ -146,7 +146,7 @@ void Recorder::note_status(double time, int robot, const AgentStatus& status,
   if (status.reason == StopCause::arrived) return;  // taken from the ground truth: arrival()
   const bool goes = status.reason == StopCause::none;
   recording_->events.push_back({time, robot, goes ? RecordedEvent::Kind::go : RecordedEvent::Kind::stop,
-                                reason_text(status), status.culprit, position_world});
+                                reason_text(status), status.blocking_id, position_world});
 }
 
 void Recorder::note_cells(double time, int robot, const OccupancyMap& map) {

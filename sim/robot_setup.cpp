@@ -75,9 +75,8 @@ OccupancyMap robot_map(const Scenario& scenario) {
   const SensingParameters& sensing = scenario.simulation.sensing;
   const Box extent = extent_of(scenario);
   const Eigen::Vector2d size = extent.high - extent.low;
-  const host::MapGrain grain{sensing.map_resolution, sensing.map_max_distance};
   OccupancyMap map =
-      host::empty_map(extent.low, extent.high, grain, std::sqrt(size.x() * size.y() / kMaxNodes));
+      host::empty_map(extent.low, extent.high, sensing.map_grain, std::sqrt(size.x() * size.y() / kMaxNodes));
   if (scenario.border) map.add_border(scenario.border->low, scenario.border->high);
   if (sensing.map == MapKnowledge::sensed) {
     map.mark_unexplored();
@@ -126,8 +125,7 @@ host::HostParameters host_parameters_for(const Scenario& scenario, const AgentPa
   bear(host.plan_silence, std::max(agent.team.plan_period, tick));
   bear(host.command_silence, std::max(agent.tracker.control_period, tick));
   bear(host.clock_jump, tick);
-  host.map_resolution = simulation.sensing.map_resolution;
-  host.map_reach = simulation.sensing.map_max_distance;
+  host.map_grain = simulation.sensing.map_grain;
   const bool scans_alone = simulation.sensing.detections == DetectionQuality::scan;
   host.relies_on_scan = scans_alone && simulation.trial.tracking == TrackingMode::full;
   host.relies_on_obstacles = !scans_alone && simulation.trial.tracking == TrackingMode::full;

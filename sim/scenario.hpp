@@ -47,10 +47,12 @@ struct CrowdSample {
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
 };
 
+inline constexpr std::uint64_t kDefaultSeed = 20240501;
+
 struct Scenario {
   std::string family = "custom";
   int trial = 0;  ///< k of docs/protocol.md
-  std::uint64_t seed = 20240501;
+  std::uint64_t seed = kDefaultSeed;
 
   /// Bounds moving discs and robots: a centre stays inside by its radius; a robot that crosses it has hit the
   /// border.

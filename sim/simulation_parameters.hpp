@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "host/map_grain.hpp"
 #include "spf/math/parameters.hpp"
 
 namespace spf::sim {
@@ -108,9 +109,9 @@ struct SensingParameters {
   double field_of_view = 360.0;       ///< [deg] of the range sensor, as much to the left as to the right
   double range_sigma = 0.0;           ///< [m] noise of one beam
   double rate = 10.0;                 ///< [Hz] of detections and scans
-  bool guard = false;                 ///< scans guard the robots' way, where there are any
-  double map_resolution = 0.1;        ///< [m] of the robots' grids (coarser where they had too many nodes)
-  double map_max_distance = 2.0;      ///< [m] beyond which the grids need not know distances
+  bool guard = false;        ///< scans guard the robots' way, where there are any; off, since trials compare
+                             ///< what planners do, while robots come with their guard on
+  host::MapGrain map_grain;  ///< of the robots' maps (coarser where they had too many nodes)
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -131,10 +132,7 @@ struct SensingParameters {
     visit("range_sigma", self.range_sigma, "m", Range{0.0, 10.0}, "noise of one beam");
     visit("rate", self.rate, "Hz", Range{0.1, 200.0}, "rate of detections and scans");
     visit("guard", self.guard, "raw scans, where there are any, slow and stop robots before what is ahead");
-    visit("map_resolution", self.map_resolution, kMetresBySize, Range{0.005, 10.0},
-          "node distance of the robots' grids");
-    visit("map_max_distance", self.map_max_distance, kMetresBySize, Range{0.01, 100.0},
-          "distances are exact up to here");
+    host::MapGrain::visit_fields_as("map_resolution", "map_max_distance", self.map_grain, visit);
   }
 };
 

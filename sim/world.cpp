@@ -62,16 +62,16 @@ void World::begin_tick() {
 }
 
 PoseMeasurement World::measure_pose(int robot) {
-  return sensing_.measure_pose(robot, time(), robots_[index(robot)].pose);
+  return sensing_.measure_pose(robot, time(), robots_[as_index(robot)].pose);
 }
 
 void World::observe(int robot, Observation& observation) {
   const Surroundings surroundings{time(), share(), &dynamic_obstacles_.all(), &positions_, &grid_};
-  sensing_.observe(robot, robots_[index(robot)].pose, surroundings, observation);
+  sensing_.observe(robot, robots_[as_index(robot)].pose, surroundings, observation);
 }
 
 void World::place(int robot, const Pose2& pose_world, const Eigen::Vector2d& velocity_world) {
-  placements_[index(robot)] = {pose_world, velocity_world};
+  placements_[as_index(robot)] = {pose_world, velocity_world};
 }
 
 void World::end_tick() {
@@ -112,12 +112,12 @@ void World::check() {
   for (; contacts_seen_ < contacts().size(); ++contacts_seen_) {
     const Contact& contact = contacts()[contacts_seen_];
     if (!wrecks) continue;
-    robots_[index(contact.robot)].wrecked = true;
-    if (contact.with == ContactWith::robot) robots_[index(contact.other)].wrecked = true;
+    robots_[as_index(contact.robot)].wrecked = true;
+    if (contact.with == ContactWith::robot) robots_[as_index(contact.other)].wrecked = true;
   }
   meter_.moved(time() + dt, robots_);
   if (scenario_.simulation.trial.after_arrival != AfterArrival::leave) return;
-  for (const int robot : arrivals()) robots_[index(robot)].gone = true;
+  for (const int robot : arrivals()) robots_[as_index(robot)].gone = true;
 }
 
 bool World::finished() const {
@@ -139,8 +139,8 @@ TrialResult World::result() const {
   if (ends && result.contacts.size() > 1) result.contacts.resize(1);
   result.hits_while_standing = hits_while_standing();
   for (const Contact& contact : result.contacts) {
-    result.robots[index(contact.robot)].touched = true;
-    if (contact.with == ContactWith::robot) result.robots[index(contact.other)].touched = true;
+    result.robots[as_index(contact.robot)].touched = true;
+    if (contact.with == ContactWith::robot) result.robots[as_index(contact.other)].touched = true;
   }
   const bool all_in_time = std::all_of(result.robots.begin(), result.robots.end(),
                                        [](const RobotResult& robot) { return robot.in_time; });

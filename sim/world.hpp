@@ -10,6 +10,7 @@
 #include "sim/robot_truth.hpp"
 #include "sim/sensing.hpp"
 #include "sim/trial_meter.hpp"
+#include "spf/math/index.hpp"
 #include "spf/robot/omni_dynamics.hpp"
 
 namespace spf::sim {
@@ -44,7 +45,7 @@ class World {
   void observe(int robot, Observation& observation);
 
   /// Commanded wheel speeds [m/s], held until the next call (TrackingMode::full).
-  void command(int robot, const Eigen::Vector3d& wheel_speeds) { commands_[index(robot)] = wheel_speeds; }
+  void command(int robot, const Eigen::Vector3d& wheel_speeds) { commands_[as_index(robot)] = wheel_speeds; }
   /// Sets the robot's pose and velocity at the end of the tick (TrackingMode::ideal).
   void place(int robot, const Pose2& pose_world, const Eigen::Vector2d& velocity_world);
 
@@ -62,7 +63,7 @@ class World {
   [[nodiscard]] const std::vector<Eigen::Vector3d>& commands() const {
     return commands_;
   }  ///< [m/s] by robot
-  [[nodiscard]] const OmniDynamics& plant(int robot) const { return plants_[index(robot)]; }
+  [[nodiscard]] const OmniDynamics& plant(int robot) const { return plants_[as_index(robot)]; }
   [[nodiscard]] const std::vector<Eigen::Vector2d>& positions() const {
     return positions_;
   }  ///< [m] of robots
@@ -82,7 +83,6 @@ class World {
     Pose2 pose_world;
     Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  // [m/s]
   };
-  [[nodiscard]] static std::size_t index(int robot) { return static_cast<std::size_t>(robot); }
   [[nodiscard]] double share_at(long tick) const {
     return static_cast<double>(tick % step_ticks_) / static_cast<double>(step_ticks_);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "config/contradiction_report.hpp"
 #include "config/parameter_text.hpp"
@@ -127,15 +128,22 @@ void check_explicit(const YamlNode& root, const RunConfiguration& config, InputP
   }
 }
 
-/// Checks that a family draws a first trial that can run. Reported as one problem, at the keys that size the
-/// family.
+/// The key that sizes a family: what of the layout did not fit, where that is known and was set, or else the
+/// number of robots or the family itself.
+std::pair<std::string, const YamlNode*> sizing_key(const YamlNode& root, const std::string& of_layout) {
+  const YamlNode* layout = root.find("layout");
+  if (const YamlNode* node = layout == nullptr ? nullptr : layout->find(of_layout))
+    return {"layout." + of_layout, node};
+  const std::string key = root.find("robots") != nullptr ? "robots" : "family";
+  return {key, root.find(key)};
+}
+
+/// Checks that a family draws a first trial that can run. Reported as one problem, at the key that sizes it.
 void check_drawn(const YamlNode& root, const RunConfiguration& config, InputProblems& problems) {
-  const char* key = root.find("robots") != nullptr ? "robots" : "family";
-  const YamlNode* node = root.find(key);
-  const auto refuse = [&](const std::string& why) {
-    problems.add(
-        node == nullptr ? root.location : node->location,
-        std::string{key} + (node == nullptr ? "" : " = " + shown(*node)) + " cannot be drawn: " + why);
+  const auto refuse = [&](const std::string& why, const std::string& of_layout = "") {
+    const auto [key, node] = sizing_key(root, of_layout);
+    problems.add(node == nullptr ? root.location : node->location,
+                 key + (node == nullptr ? "" : " = " + shown(*node)) + " cannot be drawn: " + why);
   };
   try {
     const std::vector<sim::ScenarioProblem> found = sim::problems_of(make_trial(config, 0));
@@ -143,6 +151,8 @@ void check_drawn(const YamlNode& root, const RunConfiguration& config, InputProb
     const std::string others =
         found.size() == 1 ? "" : " (and " + std::to_string(found.size() - 1) + " more)";
     refuse(to_text(found.front()) + others);
+  } catch (const sim::NoRoom& error) {
+    refuse(error.what(), error.entry);
   } catch (const std::exception& error) {
     refuse(error.what());
   }

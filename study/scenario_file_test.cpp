@@ -75,13 +75,14 @@ TEST(ScenarioFile, DefaultsFollowTheRobotOfTheFileAndSetValuesDoNot) {
   EXPECT_DOUBLE_EQ(small.agent.space_time.margin, 0.5 * large.margin);
   EXPECT_DOUBLE_EQ(small.agent.space_time.horizon, large.horizon);  // it stops in the same time
   EXPECT_EQ(small.agent.space_time.peer_margin, 0.05);              // as written
-  EXPECT_DOUBLE_EQ(small.simulation.sensing.map_resolution, 0.5 * standard.simulation.sensing.map_resolution);
+  EXPECT_DOUBLE_EQ(small.simulation.sensing.map_grain.resolution,
+                   0.5 * standard.simulation.sensing.map_grain.resolution);
 }
 
 TEST(ScenarioFile, AFamilyOfSmallRobotsHasTheirDefaults) {
   const RunConfiguration platform = run_configuration_from_text("family: p8\n", "p8.yaml");
   EXPECT_DOUBLE_EQ(platform.agent.space_time.margin, SpaceTimeParameters{}.margin / 6.0);
-  EXPECT_EQ(platform.simulation.sensing.map_resolution, 0.02);  // as the family says
+  EXPECT_EQ(platform.simulation.sensing.map_grain.resolution, 0.02);  // as the family says
   const RunConfiguration again = run_configuration_from_text(to_yaml_text(platform), "again.yaml");
   EXPECT_EQ(to_yaml_text(again), to_yaml_text(platform));
 }
@@ -232,7 +233,12 @@ TEST(ScenarioFile, SaysWhenAFamilyHasNoRoom) {
   EXPECT_THAT(robots, testing::StartsWith("file.yaml:2:9: robots = 2000 cannot be drawn: robots["));
   EXPECT_THAT(robots, testing::Not(HasSubstr("\n")));
   EXPECT_THAT(report("family: t2\nlayout: {squares: 200}"),
-              testing::StartsWith("file.yaml:1:9: family = t2 cannot be drawn: no scene"));
+              testing::StartsWith(
+                  "file.yaml:2:19: layout.squares = 200 cannot be drawn: no scene of family t2 found in "));
+  EXPECT_THAT(report("family: t2\nlayout: {squares: 200}"), testing::EndsWith(": no room for 200 squares"));
+  EXPECT_THAT(
+      report("family: p8\nlayout: {discs: 200}"),
+      testing::StartsWith("file.yaml:2:17: layout.discs = 200 cannot be drawn: no scene of family p8"));
 }
 
 /// How many lines a report has, and how many problems beyond them it counts.
@@ -277,7 +283,7 @@ TEST(ScenarioFile, RefusesLongerListsThanItLooksThrough) {
 
 TEST(ScenarioFile, AHopelessLayoutOfManyIsGivenUpSoon) {
   const std::string found = report("family: t2\nrobots: 10000\nlayout: {squares: 200}\n");
-  EXPECT_THAT(found, HasSubstr("found in 20 attempts: too many shapes for the place"));
+  EXPECT_THAT(found, HasSubstr("found in 20 attempts: no room for 200 squares"));
 }
 
 TEST(ScenarioFile, ResolvedFormReadsBackToTheSameStudy) {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # report_page_test.sh SPF OUTPUT_FOLDER: a campaign's report in headless Chromium.
-# Exit 77 = skipped, something is missing (a failure when SPF_REQUIRE_PAGE_TEST is 1).
+# Exit 77 = skipped, something is missing (a failure when SPF_REQUIRE_TOOLS is 1).
 # SPF_NODE_MODULES names a node_modules folder, SPF_CHROMIUM a browser.
 here=$(cd "$(dirname "$0")" && pwd)
 modules=${SPF_NODE_MODULES:-$here/../../report/test/node_modules}
@@ -8,7 +8,7 @@ browser=${SPF_CHROMIUM:-$(command -v chromium || command -v chromium-browser || 
 
 missing() {
   echo "report_page skipped: $1"
-  [ "${SPF_REQUIRE_PAGE_TEST:-0}" = 1 ] && exit 1
+  [ "${SPF_REQUIRE_TOOLS:-0}" = 1 ] && exit 1
   exit 77
 }
 command -v node >/dev/null 2>&1 || missing "node is not installed (Debian: nodejs)"

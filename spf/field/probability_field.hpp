@@ -64,7 +64,6 @@ class ProbabilityField {
   [[nodiscard]] const Eigen::Vector2d& axis_world() const { return axis_world_; }
   [[nodiscard]] double half_axis_along() const { return along_; }
   [[nodiscard]] double half_axis_across() const { return across_; }
-  [[nodiscard]] double peak_density() const { return peak_density_; }
 
  private:
   Eigen::Vector2d center_world_ = Eigen::Vector2d::Zero();  // [m] eq. 2

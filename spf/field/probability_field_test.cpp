@@ -62,7 +62,7 @@ TEST(ProbabilityField, IsTheDensityOfEquations1To3) {
     const double expected = density_as_printed(c, parameters);
     const ProbabilityField field{c.obstacle, c.robot_radius, parameters};
     EXPECT_NEAR(field.density(c.query_world), expected,
-                1e-12 * field.peak_density());  // rounding: a few 1e-15
+                1e-12 * field.density(field.center_world()));  // rounding: a few 1e-15
   }
 }
 
@@ -95,7 +95,7 @@ TEST(ProbabilityField, GradientMatchesCentralDifferences) {
     }
     // Relative to peak / radius, the scale of the slope: truncation is 2e-11, rounding of positions up to 8 m
     // with steps down to 1e-6 m 3e-10. Allow about 10x.
-    const double scale = field.peak_density() / c.obstacle.radius;
+    const double scale = field.density(field.center_world()) / c.obstacle.radius;
     EXPECT_LT((field.density_gradient(c.query_world) - expected).norm(), 2e-9 * scale);
   }
 }

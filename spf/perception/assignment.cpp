@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "spf/perception/index.hpp"
+#include "spf/math/index.hpp"
 
 namespace spf {
 namespace {

@@ -36,9 +36,9 @@ Sight sight_of(const DiscFitProblem& problem) {
   Sight sight;
   for (int k = 0; k < problem.count; ++k) sight.mean += problem.returns[k].position_world;
   sight.mean /= problem.count;
-  const Eigen::Vector2d way = sight.mean - problem.sensor_world;
-  const double distance = way.norm();
-  if (distance > 1e-9) sight.away = way / distance;
+  const Eigen::Vector2d offset = sight.mean - problem.sensor_world;
+  const double distance = offset.norm();
+  if (distance > 1e-9) sight.away = offset / distance;
   return sight;
 }
 

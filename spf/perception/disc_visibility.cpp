@@ -15,9 +15,9 @@ constexpr long kMostBeamsLookedAt = 32;
 void look_along(const SensorSweep& sweep, int beam, const Eigen::Vector2d& centre_world, double radius,
                 double tolerance, DiscVisibility& seen) {
   const BeamRay ray = sweep.ray(beam);
-  const Eigen::Vector2d way = centre_world - ray.origin_world;
-  const double along = way.dot(ray.direction_world);
-  const double beside = cross(ray.direction_world, way);
+  const Eigen::Vector2d offset = centre_world - ray.origin_world;
+  const double along = offset.dot(ray.direction_world);
+  const double beside = cross(ray.direction_world, offset);
   const double half_chord = std::sqrt(std::max(radius * radius - beside * beside, 0.0));
   const double range = sweep.scan->ranges[static_cast<std::size_t>(beam)];
   switch (beam_end(*sweep.scan, beam)) {

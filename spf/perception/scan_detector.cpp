@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/index.hpp"
 #include "spf/math/plane.hpp"
-#include "spf/perception/index.hpp"
 
 namespace spf {
 namespace {
@@ -39,10 +39,10 @@ double line_rms(const std::vector<ScanReturn>& returns, const Segment& segment) 
   double xy = 0.0;
   double yy = 0.0;
   for (int k = 0; k < segment.count; ++k) {
-    const Eigen::Vector2d way = returns[as_index(segment.first + k)].position_world - mean;
-    xx += way.x() * way.x();
-    xy += way.x() * way.y();
-    yy += way.y() * way.y();
+    const Eigen::Vector2d offset = returns[as_index(segment.first + k)].position_world - mean;
+    xx += offset.x() * offset.x();
+    xy += offset.x() * offset.y();
+    yy += offset.y() * offset.y();
   }
   const double smaller = 0.5 * (xx + yy - std::hypot(xx - yy, 2.0 * xy));
   return std::sqrt(std::max(smaller, 0.0) / segment.count);
@@ -161,8 +161,8 @@ void ScanDetector::detect_faces(const SensorSweep& sweep, const std::vector<Scan
     double farthest = tolerance;
     int corner = -1;
     for (int i = from + 1; i < to; ++i) {
-      const Eigen::Vector2d way = returns[as_index(i)].position_world - start;
-      const double distance = length > tolerance ? std::abs(cross(chord, way)) / length : way.norm();
+      const Eigen::Vector2d offset = returns[as_index(i)].position_world - start;
+      const double distance = length > tolerance ? std::abs(cross(chord, offset)) / length : offset.norm();
       if (distance <= farthest) continue;
       farthest = distance;
       corner = i;

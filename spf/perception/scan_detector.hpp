@@ -1,4 +1,4 @@
-// Segments of unexplained returns to detections: discs, pairs of legs, pieces of faces. Frame: world.
+// Segments of unmasked returns to detections: discs, pairs of legs, pieces of faces. Frame: world.
 #pragma once
 
 #include <Eigen/Core>

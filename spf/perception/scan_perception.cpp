@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "spf/perception/index.hpp"
+#include "spf/math/index.hpp"
 
 namespace spf {
 
@@ -16,7 +16,7 @@ ScanPerception::ScanPerception(const PerceptionParameters& parameters)
       last_time_{-std::numeric_limits<double>::infinity()} {}
 
 bool ScanPerception::update(const SensorSweep& sweep, const OccupancyMap& map,
-                            const std::vector<MaskedDisc>& explained) {
+                            const std::vector<MaskedDisc>& discs) {
   if (!sweep.well_formed()) {
     ++stats_.malformed;
     return false;
@@ -29,11 +29,11 @@ bool ScanPerception::update(const SensorSweep& sweep, const OccupancyMap& map,
   last_time_ = sweep.time;
   kept_out_.assign(sweep.scan->ranges.size(), 0);
   returns_.reserve(sweep.scan->ranges.size());
-  explained_.reserve(sweep.scan->ranges.size());
+  masked_.reserve(sweep.scan->ranges.size());
   collect_returns(sweep, returns_);
-  explain_by_map(map);
-  explain_by_discs(sweep, explained);
-  segmentation_.run(sweep, returns_, explained_);
+  mask_by_map(map);
+  mask_by_discs(sweep, discs);
+  segmentation_.run(sweep, returns_, masked_);
   detector_.run(sweep, segmentation_);
   compare_with_free_space(map);
   tracker_.update(sweep, segmentation_, detector_);
@@ -42,16 +42,16 @@ bool ScanPerception::update(const SensorSweep& sweep, const OccupancyMap& map,
 }
 
 /// Return by return, so that an object close to a wall keeps the rest of its returns.
-void ScanPerception::explain_by_map(const OccupancyMap& map) {
+void ScanPerception::mask_by_map(const OccupancyMap& map) {
   // Half a cell, since the surface may run anywhere through a cell.
   const double tolerance =
       3.0 * std::hypot(parameters_.range_sigma, parameters_.pose_sigma) + 0.5 * map.frame().resolution;
-  explained_.resize(returns_.size());
+  masked_.resize(returns_.size());
   for (std::size_t k = 0; k < returns_.size(); ++k)
-    explained_[k] = map.distance(returns_[k].position_world) < tolerance ? 1 : 0;
+    masked_[k] = map.distance(returns_[k].position_world) < tolerance ? 1 : 0;
 }
 
-void ScanPerception::explain_by_discs(const SensorSweep& sweep, const std::vector<MaskedDisc>& discs) {
+void ScanPerception::mask_by_discs(const SensorSweep& sweep, const std::vector<MaskedDisc>& discs) {
   if (discs.empty()) return;
   return_at_.assign(sweep.scan->ranges.size(), -1);
   for (std::size_t k = 0; k < returns_.size(); ++k)
@@ -68,9 +68,9 @@ void ScanPerception::explain_by_discs(const SensorSweep& sweep, const std::vecto
       const int beam = sweep.wrapped(number);
       const std::int32_t index = beam < 0 ? -1 : return_at_[as_index(beam)];
       if (index < 0) continue;
-      const Eigen::Vector2d way = returns_[as_index(index)].position_world - disc.position_world;
-      if (way.squaredNorm() >= disc.radius * disc.radius) continue;
-      explained_[as_index(index)] = 1;
+      const Eigen::Vector2d offset = returns_[as_index(index)].position_world - disc.position_world;
+      if (offset.squaredNorm() >= disc.radius * disc.radius) continue;
+      masked_[as_index(index)] = 1;
       kept_out_[as_index(beam)] = 1;
     }
   }
@@ -98,7 +98,7 @@ void ScanPerception::mark_kept_out() {
     if (track == tracks().end() || track->id != id) continue;
     // A new compact object gets time to show whether it moves.
     const bool on_probation = !parameters_.moving_alone && track->isolated &&
-                              track->time - track->birth_time < parameters_.probation;
+                              track->time - track->birth.time < parameters_.probation;
     if (!track->dynamic && !on_probation) continue;
     for (int part = 0; part < found[k].part_count; ++part) {
       const Segment& segment = found[k].parts[as_index(part)];

@@ -1,5 +1,5 @@
-// Detects and tracks moving objects in range scans: returns that neither the map nor a teammate explains
-// become detections and tracks (docs/perception.md). Frame: world.
+// Detects and tracks moving objects in range scans: returns that neither the map nor a teammate
+// masks become detections and tracks (docs/perception.md). Frame: world.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ class ScanPerception {
   /// Throws std::invalid_argument on parameters out of range.
   explicit ScanPerception(const PerceptionParameters& parameters = {});
 
-  /// Processes one sweep. `map`: as known and sensed before it. `explained`: discs whose returns are of
+  /// Processes one sweep. `map`: as known and sensed before it. `discs`: masks of the returns of
   /// something known (trusted teammates, tracks of another detector), enlarged by their uncertainty. False
   /// when the sweep was refused, which changes the stats alone. Allocates only while sweeps or the number of
   /// objects grow.
-  bool update(const SensorSweep& sweep, const OccupancyMap& map, const std::vector<MaskedDisc>& explained);
+  bool update(const SensorSweep& sweep, const OccupancyMap& map, const std::vector<MaskedDisc>& discs);
 
   /// All tracks, tentative ones too, sorted by id.
   [[nodiscard]] const std::vector<ScanTrack>& tracks() const { return tracker_.tracks(); }
@@ -36,7 +36,7 @@ class ScanPerception {
   /// measured by this sweep alone and moved to `time` [s]. No velocity: a filtered one is no independent
   /// measurement. Sorted by id.
   void detections(double time, std::vector<Detection>& detections) const;
-  /// A flag per beam of the last sweep: its return is of a moving object or an explained disc and must not
+  /// A flag per beam of the last sweep: its return is of a moving object or a masked disc and must not
   /// enter the map.
   [[nodiscard]] const std::vector<std::uint8_t>& kept_out() const { return kept_out_; }
 
@@ -44,8 +44,8 @@ class ScanPerception {
   [[nodiscard]] const ScanTrackerStats& tracker_stats() const { return tracker_.stats(); }
 
  private:
-  void explain_by_map(const OccupancyMap& map);
-  void explain_by_discs(const SensorSweep& sweep, const std::vector<MaskedDisc>& discs);
+  void mask_by_map(const OccupancyMap& map);
+  void mask_by_discs(const SensorSweep& sweep, const std::vector<MaskedDisc>& discs);
   void compare_with_free_space(const OccupancyMap& map);
   void mark_kept_out();
 
@@ -58,7 +58,7 @@ class ScanPerception {
 
   // Of the last sweep; memory is reused.
   std::vector<ScanReturn> returns_;
-  std::vector<std::uint8_t> explained_;  // by return
+  std::vector<std::uint8_t> masked_;     // by return
   std::vector<std::int32_t> return_at_;  // by beam, -1 = none
   std::vector<std::uint8_t> kept_out_;   // by beam
 };

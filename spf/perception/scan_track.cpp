@@ -9,7 +9,7 @@
 namespace spf {
 namespace {
 
-constexpr double kSurprising = 9.2;      // [1] chi-square, 2 degrees, 0.99
+constexpr double kInnovationGate = 9.2;  // [1] chi-square, 2 degrees, 0.99
 constexpr double kFaceSlideSigma = 0.2;  // [m/s]
 constexpr double kFullEvidence = 3;      // returns that count as full evidence
 
@@ -27,26 +27,33 @@ void hold_along_face(ScanTrack& track) {
 
 }  // namespace
 
+void ScanTrack::Evidence::add(double time, int returns, double free_share) {
+  const double weight = std::min(returns / kFullEvidence, 1.0);
+  sweeps += weight;
+  free_sweeps += weight * free_share;
+  misses = 0;
+  last_seen = time;
+}
+
 ScanTrack born_track(int id, const ScanDetection& detection, const PerceptionParameters& parameters) {
   ScanTrack track;
   track.id = id;
-  track.time = track.birth_time = track.last_seen = detection.time;
+  track.time = track.birth.time = detection.time;
   track.state << detection.position_world, Eigen::Vector2d::Zero();
   track.covariance.topLeftCorner<2, 2>() = detection.covariance;
   const double speed = parameters.initial_speed;
   track.covariance.bottomRightCorner<2, 2>() = speed * speed * Eigen::Matrix2d::Identity();
-  track.birth_world = track.measured_world = detection.position_world;
-  track.birth_covariance = detection.covariance;
+  track.birth.position_world = track.measured_world = detection.position_world;
+  track.birth.covariance = detection.covariance;
   track.measured_sigma = std::sqrt(0.5 * detection.covariance.trace());
   track.radius = detection.radius;
-  track.depth = track.birth_depth = detection.depth;
+  track.depth = track.birth.depth = detection.depth;
   track.behind = detection.behind;
-  track.birth_surface = detection.position_world - detection.depth * detection.behind;
+  track.birth.surface_world = detection.position_world - detection.depth * detection.behind;
   track.isolated = detection.isolated();
   track.radius_variance = detection.radius_variance;
   track.face = detection.kind == ScanDetection::Kind::face;
-  track.evidence = std::min(detection.returns / kFullEvidence, 1.0);
-  track.free_evidence = detection.free_share * track.evidence;
+  track.evidence.add(detection.time, detection.returns, detection.free_share);
   return track;
 }
 
@@ -70,14 +77,14 @@ double Innovation::squared_mahalanobis() const {
   return difference.dot(covariance.inverse() * difference);
 }
 
-Eigen::Vector2d place_of(const ScanTrack& track, const ScanDetection& detection) {
+Eigen::Vector2d measured_position(const ScanTrack& track, const ScanDetection& detection) {
   if (!track.face && detection.kind != ScanDetection::Kind::face) return detection.position_world;
   return detection.position_world + (track.depth - detection.depth) * detection.behind;
 }
 
 Innovation innovation_of(const ScanTrack& track, const ScanDetection& detection) {
   const double late = detection.time - track.time;
-  return {place_of(track, detection) - track.position() - late * track.velocity(),
+  return {measured_position(track, detection) - track.position() - late * track.velocity(),
           track.position_covariance() + detection.covariance};
 }
 
@@ -90,8 +97,8 @@ void correct(ScanTrack& track, const ScanDetection& detection, const PerceptionP
   }
   if (detection.kind == ScanDetection::Kind::disc) track.depth = detection.depth;
   Innovation innovation = innovation_of(track, detection);
-  const double dt = std::max(detection.time - track.last_seen, 0.0);
-  if (innovation.squared_mahalanobis() > kSurprising) {
+  const double dt = std::max(detection.time - track.evidence.last_seen, 0.0);
+  if (innovation.squared_mahalanobis() > kInnovationGate) {
     const double v = parameters.sudden_speed * parameters.sudden_speed;
     const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
     track.covariance.topLeftCorner<2, 2>() += v * dt * dt * one;
@@ -108,16 +115,13 @@ void correct(ScanTrack& track, const ScanDetection& detection, const PerceptionP
   const Eigen::Matrix4d corrected =
       kept * track.covariance * kept.transpose() + gain * detection.covariance * gain.transpose();
   track.covariance = 0.5 * (corrected + corrected.transpose());
-  track.measured_world = place_of(track, detection) - (detection.time - track.time) * track.velocity();
+  track.measured_world =
+      measured_position(track, detection) - (detection.time - track.time) * track.velocity();
   track.measured_sigma = std::sqrt(0.5 * detection.covariance.trace());
-  track.last_seen = detection.time;
   track.behind = detection.behind;
   if (track.face) hold_along_face(track);
   track.isolated = detection.isolated();
-  const double weight = std::min(detection.returns / kFullEvidence, 1.0);
-  track.evidence += weight;
-  track.free_evidence += weight * detection.free_share;
-  track.misses = 0;
+  track.evidence.add(detection.time, detection.returns, detection.free_share);
   track.sight = ScanTrack::Sight::seen;
 }
 

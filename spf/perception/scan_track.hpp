@@ -13,8 +13,28 @@ struct ScanTrack {
     seen,      ///< has returns of the last sweep
     hidden,    ///< occluded or out of range: coasts
     missing,   ///< beams pass through where it should be
-    absorbed,  ///< the returns there are explained by the map
+    absorbed,  ///< the map masks the returns there
     doubled,   ///< an older track follows the same object
+  };
+
+  /// As it was when it was first seen: has it moved since then?
+  struct Birth {
+    double time = 0.0;                                         ///< [s]
+    Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();      ///< [m^2] of that
+    double depth = 0.0;                                        ///< [m]
+    Eigen::Vector2d surface_world = Eigen::Vector2d::Zero();   ///< [m] the point nearest to the sensor
+  };
+
+  /// What speaks for it.
+  struct Evidence {
+    double sweeps = 0.0;       ///< [1] that saw it; less with few returns
+    double free_sweeps = 0.0;  ///< [1] the same, of returns in space seen free before
+    int misses = 0;            ///< in a row
+    double last_seen = 0.0;    ///< [s]
+
+    /// A detection of so many returns, `free_share` [1] of them in space seen free before.
+    void add(double time, int returns, double free_share);
   };
 
   int id = 0;
@@ -35,15 +55,8 @@ struct ScanTrack {
   Eigen::Vector2d measured_world = Eigen::Vector2d::Zero();  ///< [m] at `time`, of the last sweep that saw it
   double measured_sigma = 0.0;                               ///< [m] of that, per axis
 
-  double birth_time = 0.0;                                     ///< [s]
-  Eigen::Vector2d birth_world = Eigen::Vector2d::Zero();       ///< [m]
-  Eigen::Matrix2d birth_covariance = Eigen::Matrix2d::Zero();  ///< [m^2]
-  double birth_depth = 0.0;                                    ///< [m]
-  Eigen::Vector2d birth_surface = Eigen::Vector2d::Zero();     ///< [m] the point nearest to the sensor
-  double last_seen = 0.0;                                      ///< [s]
-  double evidence = 0.0;       ///< [1] sweeps that saw it; less with few returns
-  double free_evidence = 0.0;  ///< [1] the same, of returns in space seen free before
-  int misses = 0;              ///< in a row
+  Birth birth;
+  Evidence evidence;
 
   [[nodiscard]] Eigen::Vector2d position() const { return state.head<2>(); }
   [[nodiscard]] Eigen::Vector2d velocity() const { return state.tail<2>(); }
@@ -63,10 +76,11 @@ struct Innovation {
   [[nodiscard]] double squared_mahalanobis() const;
 };
 /// The track's position according to a detection. Between a face and a disc, surfaces are compared.
-[[nodiscard]] Eigen::Vector2d place_of(const ScanTrack& track, const ScanDetection& detection);
+[[nodiscard]] Eigen::Vector2d measured_position(const ScanTrack& track, const ScanDetection& detection);
 [[nodiscard]] Innovation innovation_of(const ScanTrack& track, const ScanDetection& detection);
 
-/// Kalman update of a predicted track. A surprising innovation is taken for a sudden change of velocity.
+/// Kalman update of a predicted track. An innovation outside its gate is taken for a sudden change of
+/// velocity.
 void correct(ScanTrack& track, const ScanDetection& detection, const PerceptionParameters& parameters);
 
 }  // namespace spf

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spf/perception/index.hpp"
+#include "spf/math/index.hpp"
 
 namespace spf {
 namespace {
@@ -48,7 +48,8 @@ void ScanTracker::match(const std::vector<ScanDetection>& detections) {
       const ScanDetection& detection = detections[column];
       Innovation innovation = innovation_of(track, detection);
       // The gate allows for a sudden change of velocity (a bounce) between two sweeps.
-      const double sudden = parameters_.sudden_speed * std::clamp(detection.time - track.last_seen, 0.0, 0.2);
+      const double sudden =
+          parameters_.sudden_speed * std::clamp(detection.time - track.evidence.last_seen, 0.0, 0.2);
       innovation.covariance += sudden * sudden * Eigen::Matrix2d::Identity();
       const double reach = parameters_.gate * innovation.covariance.trace();
       if (innovation.difference.squaredNorm() > reach) continue;
@@ -72,14 +73,14 @@ void ScanTracker::join_parts(const Segmentation& segmentation, std::vector<ScanD
   for (std::size_t k = 0; k < detections.size(); ++k) {
     if (assignment_.row_of_column()[k] >= 0) continue;
     const Segment& part = detections[k].parts[0];
-    const std::array<int, 3> places{part.first, part.first + part.count / 2, part.first + part.count - 1};
+    const std::array<int, 3> indices{part.first, part.first + part.count / 2, part.first + part.count - 1};
     for (std::size_t row = 0; row < tracks_.size(); ++row) {
       const int main = assignment_.column_of_row()[row];
       if (main < 0 || detections[as_index(main)].part_count >= ScanDetection::kMostParts) continue;
       const double reach = tracks_[row].radius + 3.0 * parameters_.range_sigma +
                            2.0 * std::sqrt(0.5 * tracks_[row].position_covariance().trace());
-      const bool within = std::all_of(places.begin(), places.end(), [&](int place) {
-        return (returns[as_index(place)].position_world - tracks_[row].position()).norm() < reach;
+      const bool within = std::all_of(indices.begin(), indices.end(), [&](int index) {
+        return (returns[as_index(index)].position_world - tracks_[row].position()).norm() < reach;
       });
       if (!within) continue;
       main_of_detection_[k] = main;
@@ -103,7 +104,7 @@ void ScanTracker::correct_matched(const SensorSweep& sweep, const Segmentation& 
     if (column < 0) continue;
     ScanTrack& track = tracks_[row];
     ScanDetection& detection = detections[as_index(column)];
-    const double unseen = std::max(detection.time - track.last_seen, 0.0);
+    const double unseen = std::max(detection.time - track.evidence.last_seen, 0.0);
     track.radius_variance += kRadiusDrift * kRadiusDrift * unseen;
     const bool part_of_disc = detection.kind == ScanDetection::Kind::face && track.dynamic && !track.face &&
                               detection.radius < track.radius + 3.0 * parameters_.range_sigma;
@@ -130,7 +131,7 @@ void ScanTracker::look_for(const SensorSweep& sweep, ScanTrack& track) const {
   const DiscVisibility seen = look_at_disc(sweep, track.position(), track.radius, tolerance);
   if (2 * seen.through >= seen.all()) {
     track.sight = ScanTrack::Sight::missing;
-    ++track.misses;
+    ++track.evidence.misses;
   } else if (seen.on > seen.blocked + seen.unknown) {
     track.sight = ScanTrack::Sight::absorbed;
   } else {
@@ -140,7 +141,7 @@ void ScanTracker::look_for(const SensorSweep& sweep, ScanTrack& track) const {
 
 /// Is it confirmed, reported, dynamic?
 void ScanTracker::judge(const SensorSweep& sweep, ScanTrack& track) {
-  if (!track.confirmed && track.evidence >= parameters_.confirming_hits - 1e-9) {
+  if (!track.confirmed && track.evidence.sweeps >= parameters_.confirming_hits - 1e-9) {
     track.confirmed = true;
     ++stats_.confirmed;
   }
@@ -151,17 +152,17 @@ void ScanTracker::judge(const SensorSweep& sweep, ScanTrack& track) {
   track.reported = report;
   if (track.dynamic || track.sight != ScanTrack::Sight::seen) return;
   // A better estimate of the depth moves the centre, not the object.
-  Eigen::Vector2d gone = track.position() - track.birth_world;
+  Eigen::Vector2d gone = track.position() - track.birth.position_world;
   if (track.face) gone = gone.dot(track.behind) * track.behind;
-  const double way = gone.norm();
-  gone *= std::max(1.0 - std::abs(track.depth - track.birth_depth) / std::max(way, 1e-9), 0.0);
-  const Eigen::Matrix2d spread = track.birth_covariance + track.position_covariance();
-  const bool displaced = gone.norm() > parameters_.dynamic_distance && track.evidence >= 2.0 &&
+  const double distance = gone.norm();
+  gone *= std::max(1.0 - std::abs(track.depth - track.birth.depth) / std::max(distance, 1e-9), 0.0);
+  const Eigen::Matrix2d spread = track.birth.covariance + track.position_covariance();
+  const bool displaced = gone.norm() > parameters_.dynamic_distance && track.evidence.sweeps >= 2.0 &&
                          gone.dot(spread.inverse() * gone) > 11.8;  // three sigma, two degrees
   track.dynamic =
-      track.free_evidence >= 1.5 ||
+      track.evidence.free_sweeps >= 1.5 ||
       (displaced && (!parameters_.map_scans ||
-                     vacated(sweep, track.birth_surface, kVacatedSigmas * parameters_.range_sigma)));
+                     vacated(sweep, track.birth.surface_world, kVacatedSigmas * parameters_.range_sigma)));
 }
 
 /// Of two tracks of one object the younger ends.
@@ -181,7 +182,7 @@ void ScanTracker::end_doubles() {
 }
 
 bool ScanTracker::over(const ScanTrack& track, double time) {
-  const double unseen = time - track.last_seen;
+  const double unseen = time - track.evidence.last_seen;
   const double sigma = std::sqrt(0.5 * track.position_covariance().trace());
   if (track.sight == ScanTrack::Sight::seen) return false;
   if (track.sight == ScanTrack::Sight::doubled ||
@@ -191,13 +192,13 @@ bool ScanTracker::over(const ScanTrack& track, double time) {
   }
   // An uncertain prediction may be off: then more misses are needed.
   const int patience = parameters_.misses + std::min(static_cast<int>(sigma / 0.1), 5);
-  if (track.misses >= (track.confirmed ? patience : 2)) {
+  if (track.evidence.misses >= (track.confirmed ? patience : 2)) {
     ++stats_.missed;
     return true;
   }
   // By then, what never moved is in the map.
   const bool mapped = parameters_.map_scans && !track.dynamic &&
-                      (track.face || track.last_seen - track.birth_time > parameters_.probation);
+                      (track.face || track.evidence.last_seen - track.birth.time > parameters_.probation);
   const bool brief = !track.confirmed || mapped;
   if (unseen > (brief ? kTentativeTime : parameters_.coast_time) || sigma > kLargestSigma) {
     ++stats_.lost;

@@ -23,7 +23,7 @@ struct ScanTrackerStats {
   std::uint64_t confirmed = 0;
   std::uint64_t missed = 0;    ///< tracks that ended because beams passed through them
   std::uint64_t lost = 0;      ///< ... because they were out of sight for too long
-  std::uint64_t absorbed = 0;  ///< ... because the map or another track explains them
+  std::uint64_t absorbed = 0;  ///< ... because the map or another track has their returns
   std::uint64_t crowded = 0;   ///< detections beyond kMostScanTracks
 };
 

@@ -47,12 +47,12 @@ SegmentEdge Segmentation::edge_of(const SensorSweep& sweep, const ScanReturn& en
 }
 
 void Segmentation::run(const SensorSweep& sweep, const std::vector<ScanReturn>& returns,
-                       const std::vector<std::uint8_t>& explained) {
+                       const std::vector<std::uint8_t>& masked) {
   returns_.clear();
   segments_.clear();
   returns_.reserve(static_cast<std::size_t>(sweep.beams()));
   for (std::size_t k = 0; k < returns.size(); ++k)
-    if (explained[k] == 0) returns_.push_back(returns[k]);
+    if (masked[k] == 0) returns_.push_back(returns[k]);
   if (returns_.empty()) return;
 
   // Full circle: start behind a gap, so that no segment is cut at the first beam.

@@ -30,10 +30,10 @@ class Segmentation {
     segments_.reserve(256);
   }
 
-  /// Segments those returns of a sweep that are not explained (`explained`: a flag per return; `returns` in
-  /// the order of beams). Up to two lost beams or explained returns in a row are bridged.
+  /// Segments those returns of a sweep that are not masked (`masked`: a flag per return; `returns` in
+  /// the order of beams). Up to two lost beams or masked returns in a row are bridged.
   void run(const SensorSweep& sweep, const std::vector<ScanReturn>& returns,
-           const std::vector<std::uint8_t>& explained);
+           const std::vector<std::uint8_t>& masked);
 
   /// In the order of beams, from a gap on: with a full circle a segment may run across the last and first
   /// beam (unless the sweep takes time: then a moving object has moved on between them).

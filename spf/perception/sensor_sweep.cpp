@@ -20,9 +20,9 @@ double SensorSweep::beam_towards(const Eigen::Vector2d& position_world) const {
   double beam = middle;
   for (int look = 0; look < 3; ++look) {
     const double late = duration * beam / beams();
-    const Eigen::Vector2d way = position_world - pose_world.position_world - late * velocity_world;
+    const Eigen::Vector2d offset = position_world - pose_world.position_world - late * velocity_world;
     const double ahead = pose_world.heading + yaw_rate * late + scan->angle_min + half_span;
-    beam = middle + 0.5 + angle_difference(std::atan2(way.y(), way.x()), ahead) / scan->angle_increment;
+    beam = middle + 0.5 + angle_difference(std::atan2(offset.y(), offset.x()), ahead) / scan->angle_increment;
   }
   return beam;
 }

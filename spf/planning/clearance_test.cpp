@@ -64,7 +64,7 @@ TEST(Clearance, FindsTheFirstContactWithTheMap) {
   EXPECT_TRUE(model.check(run, {5.0, 7.5, 13.0}).clear());
 }
 
-TEST(Clearance, AgreesWithADenseCheckOfMovingDiscs) {
+TEST(ClearanceSlow, AgreesWithADenseCheckOfMovingDiscs) {
   RandomStream random{41};
   ClearanceModel model = make_model(DynamicModel::constant_velocity);
   const PlannerParameters planner;

@@ -16,7 +16,8 @@ struct CostToGo::Cell {
   Eigen::Vector2d outward;   // unit vector away from the window, zero inside
 };
 
-CostToGo::CostToGo(const CostToGoParameters& parameters) : parameters_{validated(parameters)} {}
+CostToGo::CostToGo(const CostToGoParameters& parameters, double robot_radius)
+    : parameters_{validated(parameters)}, clearance_{parameters.clearance + robot_radius} {}
 
 Eigen::Vector2d CostToGo::local_position(std::int32_t index) const {
   return window_.resolution * Eigen::Vector2d{index % window_.width, index / window_.width};

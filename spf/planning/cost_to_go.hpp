@@ -16,15 +16,15 @@
 namespace spf {
 
 struct CostToGoParameters {
-  double clearance = 0.35;      ///< [m] distance to static surfaces that paths keep
-  double resolution = 0.2;      ///< [m] spacing of nodes, at most 1.4 clearance is used; passages
-                                ///< narrower than 2 clearance + this may be missed
+  double clearance = 0.15;      ///< [m] distance to static surfaces that paths keep beyond the robot's radius
+  double resolution = 0.2;      ///< [m] spacing of nodes, at most 1.4 times the distance kept is used;
+                                ///< passages narrower than twice that + this may be missed
   double window_margin = 10.0;  ///< [m] the wavefront first stays this close to the box around robot and goal
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("clearance", self.clearance, kMetresBySize, Range{0.0, 20.0},
-          "distance to static surfaces that the global path keeps");
+          "distance to static surfaces that the global path keeps beyond the robot's radius");
     visit("resolution", self.resolution, kMetresBySize, Range{0.005, 5.0},
           "spacing of the nodes of the global path's search");
   }
@@ -46,8 +46,9 @@ enum class CostToGoOutcome {
 
 class CostToGo {
  public:
-  /// Throws std::invalid_argument on parameters out of range.
-  explicit CostToGo(const CostToGoParameters& parameters);
+  /// For a robot of this radius [m]; without one for a point. Throws std::invalid_argument on parameters out
+  /// of range.
+  explicit CostToGo(const CostToGoParameters& parameters, double robot_radius = 0.0);
 
   /// Propagates from the goal far enough for a robot at `robot_world`. The wavefront's working memory (some
   /// 30 bytes a node) is kept from run to run when the map is being sensed, since the next update comes soon,
@@ -81,7 +82,9 @@ class CostToGo {
 
   /// The goal, or the nearest position that keeps the clearance.
   [[nodiscard]] const Eigen::Vector2d& goal_used() const { return goal_used_; }
-  [[nodiscard]] const CostToGoParameters& parameters() const { return parameters_; }
+  /// Between paths and static surfaces [m]: the robot's radius and the clearance beyond it.
+  [[nodiscard]] double clearance() const { return clearance_; }
+  [[nodiscard]] double resolution() const { return parameters_.resolution; }
 
  private:
   /// The cost-to-go of a node is parent_cost + |position - parent|. The parent is the goal or another node;
@@ -151,6 +154,7 @@ class CostToGo {
   [[nodiscard]] bool window_covers(const Eigen::Vector2d& position_world) const;
 
   CostToGoParameters parameters_;
+  double clearance_;  // [m] of the robot's centre
   CostToGoOutcome outcome_ = CostToGoOutcome::no_free_goal;
   Eigen::Vector2d goal_asked_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d goal_used_ = Eigen::Vector2d::Zero();

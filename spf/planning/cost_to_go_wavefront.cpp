@@ -102,8 +102,7 @@ void CostToGo::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, c
   const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
   // Two free nodes must not be neighbours across a wall, however thin, so their distance stays below 2
   // clearance.
-  const double safe_spacing =
-      parameters_.clearance > 0.0 ? 1.4 * parameters_.clearance : parameters_.resolution;
+  const double safe_spacing = clearance_ > 0.0 ? 1.4 * clearance_ : parameters_.resolution;
   const double spacing = std::max(std::min(parameters_.resolution, safe_spacing), frame.resolution);
   // Nodes lie on multiples of the spacing from the map's corner, so that they do not move with the window.
   const auto snapped = [&](const Eigen::Vector2d& corner) {
@@ -125,8 +124,7 @@ void CostToGo::mark_free_nodes(const OccupancyMap& map) {
   std::size_t index = 0;
   for (int j = 0; j < window_.height; ++j) {
     for (int i = 0; i < window_.width; ++i, ++index) {
-      wavefront_.state[index] =
-          map.distance(window_.node_position(i, j)) >= parameters_.clearance ? unseen : blocked;
+      wavefront_.state[index] = map.distance(window_.node_position(i, j)) >= clearance_ ? unseen : blocked;
     }
   }
 }
@@ -222,7 +220,7 @@ bool CostToGo::sees_position(const OccupancyMap& map, const Node& parent,
                              const Eigen::Vector2d& local) const {
   const Eigen::Vector2d there = window_.origin_world + Eigen::Vector2d{parent.parent_x, parent.parent_y};
   return map.segment_clear(window_.origin_world + local, there,
-                           parameters_.clearance - kSightSlack * map.frame().resolution);
+                           clearance_ - kSightSlack * map.frame().resolution);
 }
 
 void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index) {
@@ -273,7 +271,7 @@ CostToGo::Node CostToGo::parent_at(std::int32_t index, const Eigen::Vector2d& lo
 Eigen::Vector2d CostToGo::at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const {
   Eigen::Vector2d position = window_.origin_world + local;
   for (int step = 0; step < 2; ++step) {
-    const double excess = map.distance(position) - parameters_.clearance;
+    const double excess = map.distance(position) - clearance_;
     position -= std::clamp(excess, -window_.resolution, window_.resolution) * map.distance_gradient(position);
   }
   return position - window_.origin_world;
@@ -370,12 +368,12 @@ std::optional<Eigen::Vector2d> CostToGo::nearest_free_position(const OccupancyMa
   const Eigen::Vector2d high = frame.node_position(frame.width - 1, frame.height - 1);
   const bool inside =
       (wanted.array() >= frame.origin_world.array()).all() && (wanted.array() <= high.array()).all();
-  if (inside && map.distance(wanted) >= parameters_.clearance) return wanted;
+  if (inside && map.distance(wanted) >= clearance_) return wanted;
   const Eigen::Vector2i centre = frame.nearest_node(wanted);
   std::optional<Eigen::Vector2d> best;
   double nearest = std::numeric_limits<double>::infinity();
   const auto look = [&](int i, int j) {
-    if (!frame.contains(i, j) || map.node_distance(i, j) < parameters_.clearance) return;
+    if (!frame.contains(i, j) || map.node_distance(i, j) < clearance_) return;
     const double distance = (frame.node_position(i, j) - wanted).norm();
     if (distance >= nearest) return;
     nearest = distance;

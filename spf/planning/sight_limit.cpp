@@ -40,13 +40,13 @@ void SightLimit::prepare(const PlanRequest& request) {
   speed_ = std::min(robot_.max_speed, open_speed_);
   if (map_->unexplored()) {
     const double stop = speed_ * (sight.reaction + 0.5 * speed_ / robot_.max_acceleration);
-    const double free = explored_way(*request.guide, request.head.position_world, stop + own);
+    const double free = explored_path_length(*request.guide, request.head.position_world, stop + own);
     speed_ = std::min(speed_, stoppable_speed(free - own, 0.0, sight.reaction, robot_.max_acceleration));
   }
   speed_ = std::max(speed_, kCrawl * robot_.max_speed);
 }
 
-/// Length of a segment from its start to the first place that is unknown.
+/// Length of a segment from its start to the first position that is unknown.
 double SightLimit::explored_length(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   const double length = (to - from).norm();
   const int steps = std::max(1, static_cast<int>(std::ceil(length / (2.0 * reach_))));
@@ -57,14 +57,14 @@ double SightLimit::explored_length(const Eigen::Vector2d& from, const Eigen::Vec
   return length;
 }
 
-double SightLimit::explored_way(const CostToGo& guide, const Eigen::Vector2d& from, double enough) {
-  guide.shortest_path(from, way_);
+double SightLimit::explored_path_length(const CostToGo& guide, const Eigen::Vector2d& from, double enough) {
+  guide.shortest_path(from, path_);
   double length = 0.0;
-  for (std::size_t i = 1; i < way_.size() && length < enough; ++i) {
-    const Eigen::Vector2d leg = way_[i] - way_[i - 1];
+  for (std::size_t i = 1; i < path_.size() && length < enough; ++i) {
+    const Eigen::Vector2d leg = path_[i] - path_[i - 1];
     const double wanted = std::min(leg.norm(), enough - length);
     if (wanted <= 0.0) continue;
-    const double free = explored_length(way_[i - 1], way_[i - 1] + leg.normalized() * wanted);
+    const double free = explored_length(path_[i - 1], path_[i - 1] + leg.normalized() * wanted);
     length += free;
     if (free < wanted) return length;
   }

@@ -21,31 +21,32 @@ class SightLimit {
   /// `margin` [m]: gap that is left when the robot stands.
   SightLimit(const RobotParameters& robot, double margin);
 
-  /// Looks along the guide, which must be ready. Allocates only for a way of more corners than ever before.
+  /// Looks along the guide, which must be ready. Allocates only for a path of more corners than ever before.
   void prepare(const PlanRequest& request);
 
-  /// Largest speed on the guide's way [m/s], up to the robot's: it stands before the first place that is
+  /// Largest speed on the guide's path [m/s], up to the robot's: it stands before the first position that is
   /// unknown, and before whatever comes from beyond its sight. Never less than a crawl, so that the robot
   /// can have a look.
   [[nodiscard]] double speed() const { return speed_; }
   /// That for what comes from beyond the sight alone, which holds in any direction [m/s].
   [[nodiscard]] double open_speed() const { return open_speed_; }
-  /// What part of the way that a robot with this state needs to stand, and of its own length ahead, is
+  /// What share of the distance that a robot with this state needs to stop, and of its own length ahead, is
   /// unknown [0, 1]; 0 where all is known.
   [[nodiscard]] double blind_share(const Eigen::Vector2d& position_world,
                                    const Eigen::Vector2d& velocity_world) const;
 
  private:
   [[nodiscard]] double explored_length(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
-  [[nodiscard]] double explored_way(const CostToGo& guide, const Eigen::Vector2d& from, double enough);
+  [[nodiscard]] double explored_path_length(const CostToGo& guide, const Eigen::Vector2d& from,
+                                            double enough);
 
   RobotParameters robot_;
   double margin_;  // [m]
-  double reach_;   // [m] how far from a place a beam may pass that shows it to be free
+  double reach_;   // [m] how far from a position a beam may pass that shows it to be free
   const OccupancyMap* map_ = nullptr;
   double speed_ = 0.0;       // [m/s]
   double open_speed_ = 0.0;  // [m/s]
-  std::vector<Eigen::Vector2d> way_;
+  std::vector<Eigen::Vector2d> path_;
 };
 
 }  // namespace spf

@@ -19,10 +19,6 @@ Eigen::Vector3d OmniDynamics::wheel_speeds() const {
   return kinematics_.wheel_speeds_from_world(state_.twist_world, state_.pose_world.heading);
 }
 
-double OmniDynamics::kinetic_energy() const {
-  return 0.5 * state_.twist_world.dot(inertia_.cwiseProduct(state_.twist_world));
-}
-
 Eigen::Vector3d OmniDynamics::wrench_body(const Eigen::Vector3d& wheel_torques) const {
   return kinematics_.wheel_from_body().transpose() * wheel_torques / parameters_.wheel_radius;
 }

@@ -35,7 +35,6 @@ class OmniDynamics {
   [[nodiscard]] Eigen::Vector3d wheel_speeds() const;
   /// Torques [N m] of the last step, after clipping.
   [[nodiscard]] const Eigen::Vector3d& wheel_torques() const { return wheel_torques_; }
-  [[nodiscard]] double kinetic_energy() const;  ///< [J]
 
   [[nodiscard]] Eigen::Vector3d wrench_body(const Eigen::Vector3d& wheel_torques) const;
   /// Wheel torques [N m] that exert a wrench on the body.

@@ -44,7 +44,7 @@ struct AgentParameters {
   TeamParameters team;
   FieldParameters field;
   PlannerParameters planner;
-  CostToGoParameters guide{0.15, 0.2, 10.0};  ///< its clearance counts beyond the robot's radius here
+  CostToGoParameters guide;
   SpaceTimeParameters space_time;
   OrcaParameters orca;
   TrackerParameters tracker;

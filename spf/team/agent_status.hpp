@@ -15,8 +15,8 @@ enum class StopCause {
   none,
   no_goal,
   arrived,
-  obstacle_ahead,  ///< waits for a moving obstacle (culprit = its id)
-  peer_ahead,      ///< waits for a teammate (culprit = its number)
+  obstacle_ahead,  ///< waits for a moving obstacle (blocking_id = its id)
+  peer_ahead,      ///< waits for a teammate (blocking_id = its number)
   no_path,         ///< the static map leaves no path to the goal
   planner_failed,  ///< no safe plan within the budget; stands and tries again
   // Found by its host's watchdog (host/watchdog.hpp).
@@ -40,15 +40,15 @@ inline constexpr std::size_t kStopCauses = static_cast<std::size_t>(StopCause::c
 
 /// How the static map, as far as it is known, lets a robot come to its goal.
 enum class GoalAccess {
-  open,     ///< a way leads there
-  blocked,  ///< it lies in a wall, or nearer to one than the robot goes: at best a way leads to beside it
-  cut_off,  ///< no way leads there
+  open,     ///< a path leads there
+  blocked,  ///< it lies in a wall, or nearer to one than the robot goes: at best a path leads to beside it
+  cut_off,  ///< no path leads there
 };
 
 /// A cause and who is behind it.
 struct StandCause {
   StopCause reason = StopCause::none;
-  int culprit = -1;  ///< id of the obstacle or peer, -1 = none
+  int blocking_id = -1;  ///< id of the obstacle or peer, -1 = none
 };
 
 /// Something below the planner, as a guard, keeps the robot from doing as planned.
@@ -60,7 +60,7 @@ struct Hold {
 struct AgentStatus {
   PeerState state = PeerState::stopped;
   StopCause reason = StopCause::no_goal;
-  int culprit = -1;  ///< id of the obstacle or peer behind the reason, -1 = none
+  int blocking_id = -1;  ///< id of the obstacle or peer behind the reason, -1 = none
 };
 
 /// Where the robot thinks it is, and how sure it is of it.

@@ -50,7 +50,7 @@ void Announcement::update(double time, const Situation& situation) {
   status_.state = PeerState::stopped;
   if (situation.stop != StopCause::none) return;
   status_.reason = situation.cause.reason;
-  status_.culprit = situation.cause.culprit;
+  status_.blocking_id = situation.cause.blocking_id;
 }
 
 std::optional<TrajectoryMessage> Announcement::message(double time, double next_time,

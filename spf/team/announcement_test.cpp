@@ -63,11 +63,11 @@ TEST(Announcement, SaysWhyTheRobotStands) {
   announcement.update(1.0, situation);
   EXPECT_EQ(announcement.status().state, PeerState::stopped);
   EXPECT_EQ(announcement.status().reason, StopCause::peer_ahead);
-  EXPECT_EQ(announcement.status().culprit, 9);
+  EXPECT_EQ(announcement.status().blocking_id, 9);
   situation.stop = StopCause::paused;  // goes before
   announcement.update(1.1, situation);
   EXPECT_EQ(announcement.status().reason, StopCause::paused);
-  EXPECT_EQ(announcement.status().culprit, -1);
+  EXPECT_EQ(announcement.status().blocking_id, -1);
   situation.stop = StopCause::none;
   situation.goal_world = Eigen::Vector2d{1.02, 0.0};
   announcement.update(1.2, situation);

@@ -39,8 +39,8 @@ void Beliefs::bound_sight(const RangeScan& scan) {
   sight_.range = std::min({sight_range_, scan.max_range, kLegs / increment});
 }
 
-/// Returns that neither the map, tracks of other detectors nor peers explain are tracked; static ones enter
-/// the map.
+/// Returns that neither the map, tracks of other detectors nor peers mask are tracked; static ones enter the
+/// map.
 void Beliefs::perceive(const Observation& observation, const Pose2& pose_world) {
   if (!perception_) perception_.emplace(perception_parameters_);
   SensorSweep sweep;
@@ -64,12 +64,12 @@ void Beliefs::hand_over_tracks(double time) {
 }
 
 void Beliefs::mask_dynamic_returns(double time) {
-  // Returns from what is tracked or has told its place are not static; a little more than the disc itself,
-  // since both places are uncertain.
+  // Returns from what is tracked or has told its position are not static; a little more than the disc itself,
+  // since both positions are uncertain.
   const double slack = 0.5 * robot_radius_;
   masked_.clear();
   for (const ObstacleTrack& track : obstacle_tracker_.tracks()) {
-    if (track.id >= kScanTrackId) break;  // sorted; found in scans: must not explain itself
+    if (track.id >= kScanTrackId) break;  // sorted; found in scans: must not mask itself
     const Eigen::Vector2d now = track.state.position_world + (time - track.time) * track.state.velocity_world;
     masked_.push_back(
         {now, track.state.radius + slack + 2.0 * track.position_sigma(std::max(0.0, time - track.time))});

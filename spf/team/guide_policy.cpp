@@ -1,33 +1,24 @@
 #include "spf/team/guide_policy.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "spf/team/schedule.hpp"
 
 namespace spf {
-namespace {
-
-CostToGoParameters for_robot(const AgentParameters& parameters) {
-  CostToGoParameters guide = parameters.guide;
-  guide.clearance += parameters.robot.radius;
-  return guide;
-}
-
-}  // namespace
-
 GuidePolicy::GuidePolicy(const AgentParameters& parameters, bool approaches_cut_off_goal, double time)
     : approaches_cut_off_goal_{approaches_cut_off_goal},
       goal_tolerance_{parameters.team.goal_tolerance},
-      cost_to_go_{for_robot(parameters)},
+      cost_to_go_{parameters.guide, parameters.robot.radius},
       next_time_{time} {}
 
 void GuidePolicy::reconfigure(const AgentParameters& parameters, bool approaches_cut_off_goal) {
   approaches_cut_off_goal_ = approaches_cut_off_goal;
   goal_tolerance_ = parameters.team.goal_tolerance;
-  const CostToGoParameters wanted = for_robot(parameters);
-  const CostToGoParameters& present = cost_to_go_.parameters();
-  if (wanted.clearance == present.clearance && wanted.resolution == present.resolution) return;
-  cost_to_go_ = CostToGo{wanted};
+  CostToGo wanted{parameters.guide, parameters.robot.radius};
+  if (wanted.clearance() == cost_to_go_.clearance() && wanted.resolution() == cost_to_go_.resolution())
+    return;
+  cost_to_go_ = std::move(wanted);
   goal_.reset();
 }
 
@@ -37,7 +28,7 @@ void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vec
   if (same_goal && !is_due(next_time_, time)) return;
   // What was newly sensed off the path makes no other path shorter: only one that is blocked cannot wait.
   const bool can_wait = same_goal && !is_due(update_time_ + kIdlePeriod, time);
-  if (can_wait && (cut_off_ || way_clear(map, here))) return;
+  if (can_wait && (cut_off_ || path_clear(map, here))) return;
   if (same_goal && !cut_off_ && !cost_to_go_.outdated(map, goal_world, here)) return;
   cost_to_go_.update(map, goal_world, here);
   // Without a path to the goal the robot goes as near as the shortest path through the walls leads, and waits
@@ -59,18 +50,17 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
     const int steps = std::max(1, static_cast<int>(leg.norm() / step));
     for (int k = 1; k <= steps; ++k) {
       const Eigen::Vector2d position = corners_[i - 1] + leg * (static_cast<double>(k) / steps);
-      if (map.distance(position) < cost_to_go_.parameters().clearance) return last;
+      if (map.distance(position) < cost_to_go_.clearance()) return last;
       last = position;
     }
   }
   return last;
 }
 
-bool GuidePolicy::way_clear(const OccupancyMap& map, const Eigen::Vector2d& here) {
+bool GuidePolicy::path_clear(const OccupancyMap& map, const Eigen::Vector2d& here) {
   if (!cost_to_go_.ready() || cost_to_go_.outcome() == CostToGoOutcome::unreachable) return false;
   cost_to_go_.shortest_path(here, corners_);
-  const double clearance =
-      cost_to_go_.parameters().clearance - 0.5 * map.frame().resolution;  // it grazes its corners
+  const double clearance = cost_to_go_.clearance() - 0.5 * map.frame().resolution;  // it grazes its corners
   for (std::size_t i = 1; i < corners_.size(); ++i)
     if (!map.segment_clear(corners_[i - 1], corners_[i], clearance)) return false;
   return true;

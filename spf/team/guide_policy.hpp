@@ -39,7 +39,7 @@ class GuidePolicy {
   [[nodiscard]] bool goal_out_of_reach(const Eigen::Vector2d& here) const;
 
  private:
-  [[nodiscard]] bool way_clear(const OccupancyMap& map, const Eigen::Vector2d& here);
+  [[nodiscard]] bool path_clear(const OccupancyMap& map, const Eigen::Vector2d& here);
   [[nodiscard]] Eigen::Vector2d last_free_position(const OccupancyMap& map, const Eigen::Vector2d& here);
 
   bool approaches_cut_off_goal_;

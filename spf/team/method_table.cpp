@@ -16,9 +16,7 @@ std::unique_ptr<Planner> make_field(const AgentParameters& agent) {
 }
 
 std::unique_ptr<Planner> make_orca(const AgentParameters& agent) {
-  OrcaParameters orca = agent.orca;
-  orca.period = agent.team.plan_period;
-  return std::make_unique<OrcaPlanner>(orca, agent.robot, agent.planner);
+  return std::make_unique<OrcaPlanner>(agent.orca, agent.robot, agent.team.plan_period, agent.planner);
 }
 
 /// The paper's own presets (Section "Experimental Setup"): its field, its observer with its gains, its

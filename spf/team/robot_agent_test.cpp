@@ -192,7 +192,7 @@ TEST_P(RobotAgentTest, SaysThatThereIsNoPathToAWalledInGoal) {
   host.run(15.0);
   EXPECT_LT(host.speed(), 0.02);
   EXPECT_EQ(host.agent.status().reason, StopCause::no_path);
-  EXPECT_EQ(host.agent.status().culprit, -1);
+  EXPECT_EQ(host.agent.status().blocking_id, -1);
   EXPECT_GT(host.box_clearance, 0.0);
   host.run(1.0);
   EXPECT_EQ(host.agent.status().reason, StopCause::no_path);
@@ -220,7 +220,7 @@ TEST_P(RobotAgentTest, NamesTheObstacleThatIsParkedInTheOnlyGap) {
     host.run(0.1);
     EXPECT_LT(host.speed(), 0.05);
     EXPECT_EQ(host.agent.status().reason, StopCause::obstacle_ahead);
-    EXPECT_EQ(host.agent.status().culprit, 23);
+    EXPECT_EQ(host.agent.status().blocking_id, 23);
   }
   EXPECT_GT(host.mover_clearance, 0.0);
   EXPECT_GT(host.box_clearance, 0.0);
@@ -244,7 +244,7 @@ TEST_P(RobotAgentTest, NamesThePeerThatIsParkedInTheOnlyGap) {
     host.run(0.1);
     EXPECT_LT(host.speed(), 0.05);
     EXPECT_EQ(host.agent.status().reason, StopCause::peer_ahead);
-    EXPECT_EQ(host.agent.status().culprit, 9);
+    EXPECT_EQ(host.agent.status().blocking_id, 9);
   }
   EXPECT_GT(host.place.norm(), 0.6);
   gone = true;
@@ -344,7 +344,7 @@ TEST(RobotAgent, OfThePapersMethodBrakesForAPeerOfLowerPriority) {
   EXPECT_GT(least, 0.6);
   EXPECT_LT(host.speed(), 0.05);
   EXPECT_EQ(host.agent.status().reason, StopCause::peer_ahead);
-  EXPECT_EQ(host.agent.status().culprit, 7);
+  EXPECT_EQ(host.agent.status().blocking_id, 7);
 }
 
 TEST_P(RobotAgentTest, LetsTheDiscOfASilentPeerGrowAndForgetsIt) {

@@ -35,15 +35,15 @@ Vector3d bound_violation(const BoxLqProblem& problem, const Vector3d& state) {
 double box_lq_cost(const BoxLqProblem& problem, const StateSequence& states, const InputSequence& inputs) {
   double cost = 0.0;
   for (int k = 0; k < problem.steps; ++k) {
-    const BoxLqStage& stage = problem.stages[index(k)];
-    const Vector3d& state = states[index(k + 1)];
+    const BoxLqStage& stage = problem.stages[as_index(k)];
+    const Vector3d& state = states[as_index(k + 1)];
     const Vector3d error = state - stage.reference;
     cost += error.dot(problem.state_weight.cwiseProduct(error));
     cost += problem.slack_weight * bound_violation(problem, state).squaredNorm();
-    cost += problem.effort_weight * (inputs[index(k)] - stage.input_reference).squaredNorm();
+    cost += problem.effort_weight * (inputs[as_index(k)] - stage.input_reference).squaredNorm();
     if (problem.rate_weight > 0.0) {
-      const Vector3d& before = k > 0 ? inputs[index(k - 1)] : problem.previous_input;
-      cost += problem.rate_weight * (inputs[index(k)] - before).squaredNorm();
+      const Vector3d& before = k > 0 ? inputs[as_index(k - 1)] : problem.previous_input;
+      cost += problem.rate_weight * (inputs[as_index(k)] - before).squaredNorm();
     }
   }
   return cost;
@@ -61,26 +61,26 @@ void BoxLqSolver::compute_gradient(const BoxLqProblem& problem, const StateSeque
   gradient_scale_ = 0.0;
   Vector3d adjoint = Vector3d::Zero();
   for (int k = problem.steps - 1; k >= 0; --k) {
-    const BoxLqStage& stage = problem.stages[index(k)];
-    const Vector3d& state = states[index(k + 1)];
+    const BoxLqStage& stage = problem.stages[as_index(k)];
+    const Vector3d& state = states[as_index(k + 1)];
     const Vector3d violation = bound_violation(problem, state);
-    Vector3d& by_state = state_gradient_[index(k + 1)];
+    Vector3d& by_state = state_gradient_[as_index(k + 1)];
     by_state =
         2.0 * problem.state_weight.cwiseProduct(state - stage.reference) + 2.0 * slack_weight * violation;
-    state_curvature_[index(k + 1)] = 2.0 * problem.state_weight;
+    state_curvature_[as_index(k + 1)] = 2.0 * problem.state_weight;
     for (int i = 0; i < 3; ++i)
-      if (violation[i] != 0.0) state_curvature_[index(k + 1)][i] += 2.0 * slack_weight;
+      if (violation[i] != 0.0) state_curvature_[as_index(k + 1)][i] += 2.0 * slack_weight;
     adjoint += by_state;  // now the derivative by z_{k+1}
 
-    Vector3d& gradient = gradient_[index(k)];
+    Vector3d& gradient = gradient_[as_index(k)];
     gradient = stage.input_matrix.transpose() * adjoint;
     gradient_scale_ = std::max(gradient_scale_, adjoint.cwiseAbs().maxCoeff());
-    gradient += 2.0 * problem.effort_weight * (inputs[index(k)] - stage.input_reference);
+    gradient += 2.0 * problem.effort_weight * (inputs[as_index(k)] - stage.input_reference);
     if (problem.rate_weight > 0.0) {
-      const Vector3d& before = k > 0 ? inputs[index(k - 1)] : problem.previous_input;
-      gradient += 2.0 * problem.rate_weight * (inputs[index(k)] - before);
+      const Vector3d& before = k > 0 ? inputs[as_index(k - 1)] : problem.previous_input;
+      gradient += 2.0 * problem.rate_weight * (inputs[as_index(k)] - before);
       if (k + 1 < problem.steps)
-        gradient -= 2.0 * problem.rate_weight * (inputs[index(k + 1)] - inputs[index(k)]);
+        gradient -= 2.0 * problem.rate_weight * (inputs[as_index(k + 1)] - inputs[as_index(k)]);
     }
     adjoint = transposed(stage, adjoint);
   }
@@ -90,7 +90,7 @@ double BoxLqSolver::residual(const BoxLqProblem& problem, const InputSequence& i
   double largest = 0.0;
   for (int k = 0; k < problem.steps; ++k) {
     const Vector3d moved =
-        clipped(inputs[index(k)] - gradient_[index(k)], problem.input_limit) - inputs[index(k)];
+        clipped(inputs[as_index(k)] - gradient_[as_index(k)], problem.input_limit) - inputs[as_index(k)];
     largest = std::max(largest, moved.cwiseAbs().maxCoeff());
   }
   return largest;
@@ -101,9 +101,9 @@ void BoxLqSolver::hold_inputs_at_bounds(const BoxLqProblem& problem, const Input
       (1.0 - 1e-13) * problem.input_limit;  // a step that ends on the limit may round to just inside
   for (int k = 0; k < problem.steps; ++k)
     for (int i = 0; i < 3; ++i) {
-      const double input = inputs[index(k)][i];
-      const double gradient = gradient_[index(k)][i];
-      held_[index(k)][static_cast<std::size_t>(i)] =
+      const double input = inputs[as_index(k)][i];
+      const double gradient = gradient_[as_index(k)][i];
+      held_[as_index(k)][static_cast<std::size_t>(i)] =
           (input >= bound && gradient < 0.0) || (input <= -bound && gradient > 0.0);
     }
 }
@@ -114,23 +114,24 @@ template <bool kRate>
 void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence& inputs) {
   const double rate = problem.rate_weight;
   const double own_curvature = 2.0 * (problem.effort_weight + (kRate ? rate : 0.0));
-  Matrix3d value_zz = state_curvature_[index(problem.steps)].asDiagonal();
-  Vector3d value_z = state_gradient_[index(problem.steps)];
+  Matrix3d value_zz = state_curvature_[as_index(problem.steps)].asDiagonal();
+  Vector3d value_z = state_gradient_[as_index(problem.steps)];
   Matrix3d value_zv = Matrix3d::Zero();
   Matrix3d value_vv = Matrix3d::Zero();
   Vector3d value_v = Vector3d::Zero();
 
   for (int k = problem.steps - 1; k >= 0; --k) {
-    const BoxLqStage& stage = problem.stages[index(k)];
+    const BoxLqStage& stage = problem.stages[as_index(k)];
     const Matrix3d& b = stage.input_matrix;
-    Feedback& feedback = feedback_[index(k)];
+    Feedback& feedback = feedback_[as_index(k)];
     Vector3d change = Vector3d::Zero();
-    if constexpr (kRate) change = inputs[index(k)] - (k > 0 ? inputs[index(k - 1)] : problem.previous_input);
+    if constexpr (kRate)
+      change = inputs[as_index(k)] - (k > 0 ? inputs[as_index(k - 1)] : problem.previous_input);
 
     Matrix3d cross = b.transpose() * value_zz;  // d2 / du dz', z' the next state
     Matrix3d curvature = cross * b;
     curvature.diagonal().array() += own_curvature;
-    Vector3d gradient = 2.0 * problem.effort_weight * (inputs[index(k)] - stage.input_reference);
+    Vector3d gradient = 2.0 * problem.effort_weight * (inputs[as_index(k)] - stage.input_reference);
     gradient.noalias() += b.transpose() * value_z;
     if constexpr (kRate) {
       const Matrix3d mixed = b.transpose() * value_zv;
@@ -143,9 +144,9 @@ void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence
     if constexpr (kRate) by_previous.diagonal().setConstant(-2.0 * rate);
 
     for (int i = 0; i < 3; ++i)
-      if (held_[index(k)][static_cast<std::size_t>(i)])
+      if (held_[as_index(k)][static_cast<std::size_t>(i)])
         take_out(i, curvature, gradient, by_state, by_previous);
-    Cholesky3& factor = factors_[index(k)];
+    Cholesky3& factor = factors_[as_index(k)];
     factor = Cholesky3{curvature};
     feedback.step = -factor.solve(gradient);
     if (k > 0 || kRate) {
@@ -159,9 +160,10 @@ void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence
     value_zz = transition_times(stage, times_transition(value_zz, stage));
     value_zz.noalias() += by_state.transpose() * feedback.by_state;
     value_zz = (0.5 * (value_zz + value_zz.transpose())).eval();
-    value_zz.diagonal() += state_curvature_[index(k)];
-    value_z = (transposed(stage, value_z) + by_state.transpose() * feedback.step + state_gradient_[index(k)])
-                  .eval();
+    value_zz.diagonal() += state_curvature_[as_index(k)];
+    value_z =
+        (transposed(stage, value_z) + by_state.transpose() * feedback.step + state_gradient_[as_index(k)])
+            .eval();
     if constexpr (kRate) {
       value_zv.noalias() = by_state.transpose() * feedback.by_previous_input;
       value_vv.noalias() = by_previous.transpose() * feedback.by_previous_input;
@@ -182,18 +184,18 @@ double BoxLqSolver::candidate(const BoxLqProblem& problem, const InputSequence& 
   Vector3d answered_input = Vector3d::Zero();
   state_steps_[0].setZero();
   for (int k = 0; k < problem.steps; ++k) {
-    const BoxLqStage& stage = problem.stages[index(k)];
-    const Feedback& feedback = feedback_[index(k)];
-    const Vector3d& input = inputs[index(k)];
+    const BoxLqStage& stage = problem.stages[as_index(k)];
+    const Feedback& feedback = feedback_[as_index(k)];
+    const Vector3d& input = inputs[as_index(k)];
     Vector3d newton = feedback.step;
     newton.noalias() += feedback.by_state * answered;
     if (problem.rate_weight > 0.0) newton.noalias() += feedback.by_previous_input * answered_input;
-    Vector3d& step = input_steps_[index(k)];
+    Vector3d& step = input_steps_[as_index(k)];
     step = clipped(input + scale * newton, problem.input_limit) - input;
-    state_steps_[index(k + 1)] = advance(stage, state_steps_[index(k)], step);
-    answered = clip_first ? state_steps_[index(k + 1)] : advance(stage, answered, newton);
+    state_steps_[as_index(k + 1)] = advance(stage, state_steps_[as_index(k)], step);
+    answered = clip_first ? state_steps_[as_index(k + 1)] : advance(stage, answered, newton);
     answered_input = clip_first ? step : newton;
-    slope += gradient_[index(k)].dot(step);
+    slope += gradient_[as_index(k)].dot(step);
   }
   return slope;
 }
@@ -205,8 +207,9 @@ bool BoxLqSolver::improves(const BoxLqProblem& problem, const InputSequence& inp
   if (!(slope < 0.0)) return false;
   trial_states_[0] = states_[0];
   for (int k = 0; k < problem.steps; ++k) {
-    trial_inputs_[index(k)] = clipped(inputs[index(k)] + input_steps_[index(k)], problem.input_limit);
-    trial_states_[index(k + 1)] = states_[index(k + 1)] + state_steps_[index(k + 1)];
+    trial_inputs_[as_index(k)] =
+        clipped(inputs[as_index(k)] + input_steps_[as_index(k)], problem.input_limit);
+    trial_states_[as_index(k + 1)] = states_[as_index(k + 1)] + state_steps_[as_index(k + 1)];
   }
   constexpr double kShare = 1e-3;  // of the predicted decrease; rounding of the cost is tolerated
   return box_lq_cost(problem, trial_states_, trial_inputs_) <= cost + kShare * slope + 1e-15 * cost;
@@ -219,7 +222,7 @@ BoxLqOutcome BoxLqSolver::solve(const BoxLqProblem& problem, InputSequence& inpu
   outcome.solved = solve_dual(problem, dual_inputs_, max_steps, outcome.active_set_steps);
   if (outcome.solved) {
     for (int k = 0; k < problem.steps; ++k)  // a bound is met to rounding
-      inputs[index(k)] = clipped(dual_inputs_[index(k)], problem.input_limit);
+      inputs[as_index(k)] = clipped(dual_inputs_[as_index(k)], problem.input_limit);
     return outcome;
   }
   forget();
@@ -231,13 +234,14 @@ BoxLqOutcome BoxLqSolver::solve(const BoxLqProblem& problem, InputSequence& inpu
 void BoxLqSolver::roll_out(const BoxLqProblem& problem, const InputSequence& inputs) {
   states_[0] = problem.initial;
   for (int k = 0; k < problem.steps; ++k) {
-    const BoxLqStage& stage = problem.stages[index(k)];
-    states_[index(k + 1)] = advance(stage, states_[index(k)], inputs[index(k)]) + stage.offset;
+    const BoxLqStage& stage = problem.stages[as_index(k)];
+    states_[as_index(k + 1)] = advance(stage, states_[as_index(k)], inputs[as_index(k)]) + stage.offset;
   }
 }
 
 bool BoxLqSolver::refine(const BoxLqProblem& problem, InputSequence& inputs, int max_steps) {
-  for (int k = 0; k < problem.steps; ++k) inputs[index(k)] = clipped(inputs[index(k)], problem.input_limit);
+  for (int k = 0; k < problem.steps; ++k)
+    inputs[as_index(k)] = clipped(inputs[as_index(k)], problem.input_limit);
   roll_out(problem, inputs);
   for (int steps = 0;; ++steps) {
     compute_gradient(problem, states_, inputs, problem.slack_weight);

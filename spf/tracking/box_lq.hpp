@@ -18,6 +18,7 @@
 #include <array>
 #include <cstddef>
 
+#include "spf/math/index.hpp"
 #include "spf/tracking/cholesky3.hpp"
 #include "spf/tracking/reference_sampler.hpp"
 
@@ -48,15 +49,6 @@ struct BoxLqProblem {
 
 using InputSequence = std::array<Eigen::Vector3d, kMaxHorizon>;
 using StateSequence = std::array<Eigen::Vector3d, kMaxHorizon + 1>;
-
-namespace box_lq {
-
-/// Index of step k in a sequence.
-[[nodiscard]] inline std::size_t index(int k) {
-  return static_cast<std::size_t>(k);
-}
-
-}  // namespace box_lq
 
 /// Signed violation of the soft bounds, per component.
 [[nodiscard]] Eigen::Vector3d bound_violation(const BoxLqProblem& problem, const Eigen::Vector3d& state);

@@ -37,7 +37,7 @@ bool BoxLqSolver::solve_dual(const BoxLqProblem& problem, InputSequence& inputs,
 void BoxLqSolver::minimise_without_bounds(const BoxLqProblem& problem, InputSequence& inputs) {
   roll_out(problem, inputs);
   compute_gradient(problem, states_, inputs, 0.0);
-  for (int k = 0; k < problem.steps; ++k) held_[index(k)].fill(false);
+  for (int k = 0; k < problem.steps; ++k) held_[as_index(k)].fill(false);
   const bool rate = problem.rate_weight > 0.0;
   if (rate)
     riccati_sweep<true>(problem, inputs);
@@ -46,14 +46,14 @@ void BoxLqSolver::minimise_without_bounds(const BoxLqProblem& problem, InputSequ
   Vector3d state_step = Vector3d::Zero();
   Vector3d step = Vector3d::Zero();
   for (int k = 0; k < problem.steps; ++k) {
-    const Feedback& feedback = feedback_[index(k)];
+    const Feedback& feedback = feedback_[as_index(k)];
     Vector3d next = feedback.step;
     if (k > 0) next.noalias() += feedback.by_state * state_step;
     if (k > 0 && rate) next.noalias() += feedback.by_previous_input * step;
     step = next;
-    state_step = advance(problem.stages[index(k)], state_step, step);
-    inputs[index(k)] += step;
-    states_[index(k + 1)] += state_step;
+    state_step = advance(problem.stages[as_index(k)], state_step, step);
+    inputs[as_index(k)] += step;
+    states_[as_index(k + 1)] += state_step;
   }
 }
 
@@ -64,32 +64,35 @@ void BoxLqSolver::respond(const BoxLqProblem& problem, const Bound& bound, Respo
   Vector3d by_previous = Vector3d::Zero();
   if (!bound.on_input) by_state[bound.component] = -bound.sign;
   for (int k = bound.stage; k >= 0; --k) {
-    const Feedback& feedback = feedback_[index(k)];
-    Vector3d gradient = problem.stages[index(k)].input_matrix.transpose() * by_state;
+    const Feedback& feedback = feedback_[as_index(k)];
+    Vector3d gradient = problem.stages[as_index(k)].input_matrix.transpose() * by_state;
     if (rate) gradient += by_previous;
     if (bound.on_input && k == bound.stage) gradient[bound.component] -= bound.sign;
-    response.inputs[index(k)] = -factors_[index(k)].solve(gradient);
+    response.inputs[as_index(k)] = -factors_[as_index(k)].solve(gradient);
     if (k == 0) break;
-    by_state = transposed(problem.stages[index(k)], by_state);
+    by_state = transposed(problem.stages[as_index(k)], by_state);
     by_state.noalias() += feedback.by_state.transpose() * gradient;
     if (rate) by_previous.noalias() = feedback.by_previous_input.transpose() * gradient;
   }
   response.states[0].setZero();
   for (int k = 0; k < problem.steps; ++k) {
-    Vector3d& input = response.inputs[index(k)];
+    Vector3d& input = response.inputs[as_index(k)];
     if (k > bound.stage) input.setZero();
     if (k > 0) {
-      input.noalias() += feedback_[index(k)].by_state * response.states[index(k)];
-      if (rate) input.noalias() += feedback_[index(k)].by_previous_input * response.inputs[index(k - 1)];
+      input.noalias() += feedback_[as_index(k)].by_state * response.states[as_index(k)];
+      if (rate)
+        input.noalias() += feedback_[as_index(k)].by_previous_input * response.inputs[as_index(k - 1)];
     }
-    response.states[index(k + 1)] = advance(problem.stages[index(k)], response.states[index(k)], input);
+    response.states[as_index(k + 1)] =
+        advance(problem.stages[as_index(k)], response.states[as_index(k)], input);
   }
 }
 
 double BoxLqSolver::shortfall(const BoxLqProblem& problem, const InputSequence& inputs,
                               const Bound& bound) const {
-  if (bound.on_input) return -problem.input_limit - bound.sign * inputs[index(bound.stage)][bound.component];
-  const double value = states_[index(bound.stage + 1)][bound.component];
+  if (bound.on_input)
+    return -problem.input_limit - bound.sign * inputs[as_index(bound.stage)][bound.component];
+  const double value = states_[as_index(bound.stage + 1)][bound.component];
   return bound.sign > 0.0 ? problem.lower[bound.component] - value : value - problem.upper[bound.component];
 }
 
@@ -102,7 +105,7 @@ double BoxLqSolver::most_violated(const BoxLqProblem& problem, const InputSequen
     for (int i = 0; i < 3; ++i) {
       for (const bool on_input : {true, false}) {
         if (!on_input && !soft) continue;
-        const double value = on_input ? inputs[index(k)][i] : states_[index(k + 1)][i];
+        const double value = on_input ? inputs[as_index(k)][i] : states_[as_index(k + 1)][i];
         const double below = (on_input ? -problem.input_limit : problem.lower[i]) - value;
         const double above = value - (on_input ? problem.input_limit : problem.upper[i]);
         if (std::max(below, above) <= most) continue;
@@ -125,55 +128,55 @@ bool BoxLqSolver::is_active(const Bound& bound) const {
 void BoxLqSolver::move_along(const BoxLqProblem& problem, InputSequence& inputs, const Response& response,
                              double amount) {
   for (int k = 0; k < problem.steps; ++k) {
-    inputs[index(k)] += amount * response.inputs[index(k)];
-    states_[index(k + 1)] += amount * response.states[index(k + 1)];
+    inputs[as_index(k)] += amount * response.inputs[as_index(k)];
+    states_[as_index(k + 1)] += amount * response.states[as_index(k + 1)];
   }
 }
 
 // Activates a bound whose response lies in the first free slot, and adds its row of the Schur matrix.
 void BoxLqSolver::append_active(const BoxLqProblem& problem, const Bound& bound, double multiplier) {
-  const std::size_t last = index(active_count_);
+  const std::size_t last = as_index(active_count_);
   active_[last] = bound;
   multipliers_[last] = multiplier;
   ++active_count_;
-  const Response& response = responses_[index(order_[last])];
+  const Response& response = responses_[as_index(order_[last])];
   for (std::size_t j = 0; j <= last; ++j) {
     const Bound& other = active_[j];
-    const double value = other.on_input ? response.inputs[index(other.stage)][other.component]
-                                        : response.states[index(other.stage + 1)][other.component];
+    const double value = other.on_input ? response.inputs[as_index(other.stage)][other.component]
+                                        : response.states[as_index(other.stage + 1)][other.component];
     schur_[last][j] = other.sign * value;
   }
   schur_[last][last] += softness(problem, bound.on_input);
 }
 
 void BoxLqSolver::drop_active(int position) {
-  const int freed = order_[index(position)];
+  const int freed = order_[as_index(position)];
   for (int i = position; i + 1 < active_count_; ++i) {
-    active_[index(i)] = active_[index(i + 1)];
-    multipliers_[index(i)] = multipliers_[index(i + 1)];
-    order_[index(i)] = order_[index(i + 1)];
+    active_[as_index(i)] = active_[as_index(i + 1)];
+    multipliers_[as_index(i)] = multipliers_[as_index(i + 1)];
+    order_[as_index(i)] = order_[as_index(i + 1)];
     for (int j = 0; j <= i; ++j)
-      schur_[index(i)][index(j)] = schur_[index(i + 1)][index(j < position ? j : j + 1)];
+      schur_[as_index(i)][as_index(j)] = schur_[as_index(i + 1)][as_index(j < position ? j : j + 1)];
   }
   --active_count_;
   // The slot of the bound being activated, if any, follows the active ones.
-  order_[index(active_count_)] = order_[index(active_count_ + 1)];
-  order_[index(active_count_ + 1)] = freed;
+  order_[as_index(active_count_)] = order_[as_index(active_count_ + 1)];
+  order_[as_index(active_count_ + 1)] = freed;
 }
 
 // Cholesky factor of the Schur matrix, rows from `from` on. False when the matrix is not positive definite:
 // active bounds that depend on each other to rounding.
 bool BoxLqSolver::factor_schur(int from) {
   for (int i = from; i < active_count_; ++i) {
-    ActiveVector& row = schur_factor_[index(i)];
+    ActiveVector& row = schur_factor_[as_index(i)];
     for (int j = 0; j <= i; ++j) {
-      double sum = schur_[index(i)][index(j)];
-      for (int l = 0; l < j; ++l) sum -= row[index(l)] * schur_factor_[index(j)][index(l)];
+      double sum = schur_[as_index(i)][as_index(j)];
+      for (int l = 0; l < j; ++l) sum -= row[as_index(l)] * schur_factor_[as_index(j)][as_index(l)];
       if (j < i) {
-        row[index(j)] = sum / schur_factor_[index(j)][index(j)];
+        row[as_index(j)] = sum / schur_factor_[as_index(j)][as_index(j)];
       } else {
-        if (!(sum > 1e-13 * schur_[index(i)][index(i)])) return false;
-        row[index(i)] = std::sqrt(sum);
+        if (!(sum > 1e-13 * schur_[as_index(i)][as_index(i)])) return false;
+        row[as_index(i)] = std::sqrt(sum);
       }
     }
   }
@@ -182,13 +185,14 @@ bool BoxLqSolver::factor_schur(int from) {
 
 void BoxLqSolver::solve_schur(ActiveVector& vector) const {
   for (int i = 0; i < active_count_; ++i) {
-    for (int j = 0; j < i; ++j) vector[index(i)] -= schur_factor_[index(i)][index(j)] * vector[index(j)];
-    vector[index(i)] /= schur_factor_[index(i)][index(i)];
+    for (int j = 0; j < i; ++j)
+      vector[as_index(i)] -= schur_factor_[as_index(i)][as_index(j)] * vector[as_index(j)];
+    vector[as_index(i)] /= schur_factor_[as_index(i)][as_index(i)];
   }
   for (int i = active_count_ - 1; i >= 0; --i) {
     for (int j = i + 1; j < active_count_; ++j)
-      vector[index(i)] -= schur_factor_[index(j)][index(i)] * vector[index(j)];
-    vector[index(i)] /= schur_factor_[index(i)][index(i)];
+      vector[as_index(i)] -= schur_factor_[as_index(j)][as_index(i)] * vector[as_index(j)];
+    vector[as_index(i)] /= schur_factor_[as_index(i)][as_index(i)];
   }
 }
 
@@ -197,17 +201,17 @@ void BoxLqSolver::solve_schur(ActiveVector& vector) const {
 bool BoxLqSolver::start_from_last_active_set(const BoxLqProblem& problem, InputSequence& inputs) {
   const int remembered = active_count_;
   active_count_ = 0;
-  for (int i = 0; i <= kMaxActive; ++i) order_[index(i)] = i;
+  for (int i = 0; i <= kMaxActive; ++i) order_[as_index(i)] = i;
   for (int i = 0; i < remembered; ++i) {
-    const Bound bound = active_[index(i)];
+    const Bound bound = active_[as_index(i)];
     if (bound.stage >= problem.steps || (!bound.on_input && !(problem.slack_weight > 0.0))) continue;
-    respond(problem, bound, responses_[index(order_[index(active_count_)])]);
+    respond(problem, bound, responses_[as_index(order_[as_index(active_count_)])]);
     append_active(problem, bound, 0.0);
     if (!factor_schur(active_count_ - 1)) --active_count_;
   }
   while (active_count_ > 0) {
     for (int i = 0; i < active_count_; ++i)
-      multipliers_[index(i)] = shortfall(problem, inputs, active_[index(i)]);
+      multipliers_[as_index(i)] = shortfall(problem, inputs, active_[as_index(i)]);
     solve_schur(multipliers_);
     const auto least = std::min_element(multipliers_.begin(), multipliers_.begin() + active_count_);
     if (*least >= 0.0) break;
@@ -216,7 +220,7 @@ bool BoxLqSolver::start_from_last_active_set(const BoxLqProblem& problem, InputS
     if (!factor_schur(position)) return false;
   }
   for (int i = 0; i < active_count_; ++i)
-    move_along(problem, inputs, responses_[index(order_[index(i)])], multipliers_[index(i)]);
+    move_along(problem, inputs, responses_[as_index(order_[as_index(i)])], multipliers_[as_index(i)]);
   return true;
 }
 
@@ -225,29 +229,30 @@ bool BoxLqSolver::start_from_last_active_set(const BoxLqProblem& problem, InputS
 bool BoxLqSolver::take_up(const BoxLqProblem& problem, InputSequence& inputs, const Bound& bound,
                           double violation, int max_steps, int& steps) {
   if (active_count_ == kMaxActive) return false;
-  respond(problem, bound, responses_[index(order_[index(active_count_)])]);
+  respond(problem, bound, responses_[as_index(order_[as_index(active_count_)])]);
   const auto along = [&bound](const Response& response) {
-    return bound.sign * (bound.on_input ? response.inputs[index(bound.stage)][bound.component]
-                                        : response.states[index(bound.stage + 1)][bound.component]);
+    return bound.sign * (bound.on_input ? response.inputs[as_index(bound.stage)][bound.component]
+                                        : response.states[as_index(bound.stage + 1)][bound.component]);
   };
   double multiplier = 0.0;
   while (true) {
     if (steps++ >= max_steps) return false;
-    const Response& own = responses_[index(order_[index(active_count_)])];
+    const Response& own = responses_[as_index(order_[as_index(active_count_)])];
     ActiveVector trade;  // what the active multipliers lose per unit of the new one
     double curvature = along(own) + softness(problem, bound.on_input);
     const double full_curvature = curvature;
-    for (int i = 0; i < active_count_; ++i) trade[index(i)] = along(responses_[index(order_[index(i)])]);
+    for (int i = 0; i < active_count_; ++i)
+      trade[as_index(i)] = along(responses_[as_index(order_[as_index(i)])]);
     const ActiveVector coupling = trade;
     solve_schur(trade);
-    for (int i = 0; i < active_count_; ++i) curvature -= coupling[index(i)] * trade[index(i)];
+    for (int i = 0; i < active_count_; ++i) curvature -= coupling[as_index(i)] * trade[as_index(i)];
 
     double step =
         curvature > 1e-13 * full_curvature ? violation / curvature : std::numeric_limits<double>::infinity();
     int blocking = -1;
     for (int i = 0; i < active_count_; ++i) {
-      if (trade[index(i)] <= 0.0 || multipliers_[index(i)] >= step * trade[index(i)]) continue;
-      step = multipliers_[index(i)] / trade[index(i)];
+      if (trade[as_index(i)] <= 0.0 || multipliers_[as_index(i)] >= step * trade[as_index(i)]) continue;
+      step = multipliers_[as_index(i)] / trade[as_index(i)];
       blocking = i;
     }
     if (!std::isfinite(step)) return false;
@@ -256,8 +261,8 @@ bool BoxLqSolver::take_up(const BoxLqProblem& problem, InputSequence& inputs, co
     violation -= step * curvature;
     move_along(problem, inputs, own, step);
     for (int i = 0; i < active_count_; ++i) {
-      multipliers_[index(i)] -= step * trade[index(i)];
-      move_along(problem, inputs, responses_[index(order_[index(i)])], -step * trade[index(i)]);
+      multipliers_[as_index(i)] -= step * trade[as_index(i)];
+      move_along(problem, inputs, responses_[as_index(order_[as_index(i)])], -step * trade[as_index(i)]);
     }
     if (blocking < 0) {
       append_active(problem, bound, multiplier);

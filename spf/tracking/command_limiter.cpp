@@ -54,7 +54,7 @@ Eigen::Vector3d CommandLimiter::limited(const Eigen::Vector3d& wanted, const Eig
     target = possible(target);
   }
 
-  // 3. As near to it as one step leads. On the straight way from one possible motion to another all are
+  // 3. As near to it as one step leads. On the straight line from one possible motion to another all are
   // possible; driving and turning may differ in how far they get as far as the wheels allow it.
   const Eigen::Vector3d before = turns ? turned : Eigen::Vector3d{0.5 * (then + turned)};
   const double farthest = max_acceleration_ * duration - (turns ? 0.0 : 0.5 * apart_by);  // [m/s]
@@ -90,7 +90,7 @@ Eigen::Vector3d CommandLimiter::possible(const Eigen::Vector3d& twist_body) cons
   return straight + share_within_wheels(straight, turning) * (turning - straight);
 }
 
-/// How far the way from one motion to another is within the limits of the wheels [1]; its start must be.
+/// How far the line from one motion to another is within the limits of the wheels [1]; its start must be.
 double CommandLimiter::share_within_wheels(const Eigen::Vector3d& from_body,
                                            const Eigen::Vector3d& to_body) const {
   const Eigen::Vector3d from = rim_speeds(kinematics_, from_body);
@@ -99,8 +99,8 @@ double CommandLimiter::share_within_wheels(const Eigen::Vector3d& from_body,
   for (int wheel = 0; wheel < 3; ++wheel) {
     const double limit = std::copysign(kinematics_.max_wheel_speed(), to[wheel]);
     if (std::abs(to[wheel]) <= std::abs(limit)) continue;
-    const double way = to[wheel] - from[wheel];
-    share = std::min(share, std::clamp((limit - from[wheel]) / way, 0.0, 1.0));
+    const double change = to[wheel] - from[wheel];
+    share = std::min(share, std::clamp((limit - from[wheel]) / change, 0.0, 1.0));
   }
   return share;
 }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace spf {
 namespace {
 
-using box_lq::index;
 using Eigen::Vector3d;
 
 bool usable(const MpcProblem& problem, int horizon) {
@@ -15,10 +15,16 @@ bool usable(const MpcProblem& problem, int horizon) {
   bool finite = problem.initial_pose.allFinite() && problem.disturbance.allFinite() &&
                 problem.previous_wheel_speeds.allFinite();
   for (int k = 0; k <= horizon; ++k) {
-    finite = finite && problem.reference.pose[index(k)].allFinite();
-    if (k < horizon) finite = finite && problem.reference.wheel_speeds[index(k)].allFinite();
+    finite = finite && problem.reference.pose[as_index(k)].allFinite();
+    if (k < horizon) finite = finite && problem.reference.wheel_speeds[as_index(k)].allFinite();
   }
   return finite;
+}
+
+void check_bounds(const std::string& axis, double lower, double upper) {
+  if (lower <= upper) return;
+  throw std::invalid_argument(axis + "_lower = " + std::to_string(lower) + " m must not exceed " + axis +
+                              "_upper = " + std::to_string(upper) + " m");
 }
 
 }  // namespace
@@ -26,8 +32,8 @@ bool usable(const MpcProblem& problem, int horizon) {
 ModelPredictiveController::ModelPredictiveController(const MpcParameters& parameters,
                                                      const OmniKinematics& kinematics)
     : parameters_{validated(parameters)}, kinematics_{kinematics} {
-  if (parameters_.x_lower > parameters_.x_upper || parameters_.y_lower > parameters_.y_upper)
-    throw std::invalid_argument("x_lower, y_lower must not exceed x_upper, y_upper");
+  check_bounds("x", parameters_.x_lower, parameters_.x_upper);
+  check_bounds("y", parameters_.y_lower, parameters_.y_upper);
   constexpr double kUnbounded = 1e30;
   lq_.steps = parameters_.horizon;
   lq_.state_weight = {parameters_.position_weight, parameters_.position_weight, parameters_.heading_weight};
@@ -97,8 +103,8 @@ void ModelPredictiveController::set_up(const MpcProblem& problem) {
   lq_.initial = problem.initial_pose;
   lq_.previous_input = problem.previous_wheel_speeds;
   for (int k = 0; k < lq_.steps; ++k) {
-    lq_.stages[index(k)].reference = problem.reference.pose[index(k + 1)];
-    lq_.stages[index(k)].input_reference = problem.reference.wheel_speeds[index(k)];
+    lq_.stages[as_index(k)].reference = problem.reference.pose[as_index(k + 1)];
+    lq_.stages[as_index(k)].input_reference = problem.reference.wheel_speeds[as_index(k)];
   }
 }
 
@@ -108,12 +114,12 @@ void ModelPredictiveController::linearise(const MpcProblem& problem, const State
                                           const InputSequence& inputs) {
   const double dt = parameters_.dt;
   for (int k = 0; k < lq_.steps; ++k) {
-    BoxLqStage& stage = lq_.stages[index(k)];
-    const double heading = about[index(k)].z();
+    BoxLqStage& stage = lq_.stages[as_index(k)];
+    const double heading = about[as_index(k)].z();
     const Eigen::Matrix3d rotation = world_from_body(heading);
     stage.input_matrix.noalias() = rotation * kinematics_.body_from_wheel();
     stage.input_matrix *= dt;
-    const Vector3d moved = stage.input_matrix * inputs[index(k)];
+    const Vector3d moved = stage.input_matrix * inputs[as_index(k)];
     stage.x_by_heading = -moved.y();
     stage.y_by_heading = moved.x();
     stage.offset = dt * problem.disturbance;
@@ -126,9 +132,10 @@ double ModelPredictiveController::roll_out(const MpcProblem& problem, const Inpu
                                            StateSequence& states) const {
   states[0] = problem.initial_pose;
   for (int k = 0; k < lq_.steps; ++k) {
-    const Vector3d& state = states[index(k)];
-    states[index(k + 1)] =
-        state + parameters_.dt * (kinematics_.twist_world(inputs[index(k)], state.z()) + problem.disturbance);
+    const Vector3d& state = states[as_index(k)];
+    states[as_index(k + 1)] =
+        state +
+        parameters_.dt * (kinematics_.twist_world(inputs[as_index(k)], state.z()) + problem.disturbance);
   }
   return box_lq_cost(lq_, states, inputs);
 }
@@ -141,8 +148,8 @@ double ModelPredictiveController::move_towards_trial(const MpcProblem& problem, 
   constexpr int kHalvings = 3;
   double change = 0.0;
   for (int k = 0; k < lq_.steps; ++k) {
-    input_steps_[index(k)] = trial_inputs_[index(k)] - result_.wheel_speeds[index(k)];
-    change = std::max(change, input_steps_[index(k)].cwiseAbs().maxCoeff());
+    input_steps_[as_index(k)] = trial_inputs_[as_index(k)] - result_.wheel_speeds[as_index(k)];
+    change = std::max(change, input_steps_[as_index(k)].cwiseAbs().maxCoeff());
   }
   double fraction = 1.0;
   double trial_cost = try_fraction(problem, fraction);
@@ -177,8 +184,8 @@ double ModelPredictiveController::move_towards_trial(const MpcProblem& problem, 
 double ModelPredictiveController::try_fraction(const MpcProblem& problem, double fraction) {
   const double limit = lq_.input_limit;
   for (int k = 0; k < lq_.steps; ++k) {
-    const Vector3d input = result_.wheel_speeds[index(k)] + fraction * input_steps_[index(k)];
-    trial_inputs_[index(k)] = input.cwiseMax(-limit).cwiseMin(limit);  // against rounding
+    const Vector3d input = result_.wheel_speeds[as_index(k)] + fraction * input_steps_[as_index(k)];
+    trial_inputs_[as_index(k)] = input.cwiseMax(-limit).cwiseMin(limit);  // against rounding
   }
   return roll_out(problem, trial_inputs_, trial_states_);
 }
@@ -189,8 +196,8 @@ const MpcResult& ModelPredictiveController::finish(const MpcProblem& problem, do
   result_.optimality_residual = solver_.optimality_residual(lq_, result_.pose, result_.wheel_speeds);
   result_.largest_violation = 0.0;
   for (int k = 1; k <= lq_.steps; ++k)
-    result_.largest_violation = std::max(result_.largest_violation,
-                                         bound_violation(lq_, result_.pose[index(k)]).cwiseAbs().maxCoeff());
+    result_.largest_violation = std::max(
+        result_.largest_violation, bound_violation(lq_, result_.pose[as_index(k)]).cwiseAbs().maxCoeff());
   return result_;
 }
 

@@ -37,7 +37,7 @@ struct ReferenceRequest {
   double dt = 0.1;    ///< [s]
   int steps = 5;      ///< H, at most kMaxHorizon
   double preview =
-      0.0;  ///< [s] every pose is moved ahead by lead times its velocity (for motors with that lag)
+      0.0;  ///< [s] every pose is moved ahead by preview times its velocity (for motors with that lag)
   /// [s] for which the first command is held before the next reference, in (0, dt]; 0 = dt. The MPC takes its
   /// first step to last dt; on a curve the first command would then run ahead by half the difference.
   /// Points 1..H are shifted so that the first step has the mean velocity of the time it is held.

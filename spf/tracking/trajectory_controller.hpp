@@ -49,8 +49,6 @@ class TrajectoryController {
   /// Forgets the last command.
   void reset() { stand(TrackerStatus::no_estimate); }
 
-  [[nodiscard]] const TrackerOutput& last_output() const { return output_; }
-
  private:
   const TrackerOutput& stand(TrackerStatus status);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 namespace spf {
 namespace {
@@ -15,17 +16,27 @@ int clamped_index(double coordinate, int count) {
   return static_cast<int>(std::lround(std::min(coordinate, static_cast<double>(count - 1))));
 }
 
+std::string text_of(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double resolution) {
+  std::ostringstream text;
+  text << "low = (" << low.x() << ", " << low.y() << ") m, high = (" << high.x() << ", " << high.y()
+       << ") m, resolution = " << resolution << " m";
+  return text.str();
+}
+
 }  // namespace
 
 GridFrame GridFrame::covering(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double resolution) {
   const bool usable = low.allFinite() && high.allFinite() && (high.array() >= low.array()).all() &&
                       std::isfinite(resolution) && resolution > 0.0;
-  if (!usable) throw std::invalid_argument("grid frame: needs low <= high, finite, and a resolution > 0");
+  if (!usable)
+    throw std::invalid_argument("grid frame: needs low <= high, finite, and a resolution > 0, not " +
+                                text_of(low, high, resolution));
   // A rectangle that is a whole number of cells wide must not gain a column from rounding.
   constexpr double kRounding = 1e-9;
   const Eigen::Vector2d cells = ((high - low) / resolution).array() - kRounding;
   if ((cells.x() + 2.0) * (cells.y() + 2.0) > kMaxNodes) {
-    throw std::invalid_argument("grid frame: more than 2^26 nodes; use a coarser resolution");
+    throw std::invalid_argument("grid frame: more than 2^26 nodes in " + text_of(low, high, resolution) +
+                                "; use a coarser resolution");
   }
   const int width = static_cast<int>(std::ceil(std::max(cells.x(), 0.0))) + 1;
   const int height = static_cast<int>(std::ceil(std::max(cells.y(), 0.0))) + 1;

@@ -123,7 +123,7 @@ TEST(ObstacleTracker, LearnsTheDiffusionsOfExactSightings) {
   }
 }
 
-TEST(ObstacleTracker, OrdersRestlessnessSeenThroughNoise) {
+TEST(ObstacleTracker, OrdersProcessNoiseSeenThroughMeasurementNoise) {
   const double calm = mean_learnt(true, 0.25, Sensor::blurred, &ObstacleTrack::velocity_diffusion);
   const double usual = mean_learnt(true, 1.0, Sensor::blurred, &ObstacleTrack::velocity_diffusion);
   const double wild = mean_learnt(true, 2.0, Sensor::blurred, &ObstacleTrack::velocity_diffusion);
@@ -150,7 +150,7 @@ TEST(ObstacleTracker, SaysHowWrongItWillBe) {
   }
 }
 
-TEST(ObstacleTracker, ABounceIsNoRestlessness) {
+TEST(ObstacleTracker, ABounceRaisesNoProcessNoise) {
   for (const Sensor sensor : {Sensor::exact, Sensor::blurred}) {
     ObstacleTracker tracker;
     Wanderer obstacle{false, 0.25, 4, {0.9, 0.0}};
@@ -171,7 +171,7 @@ TEST(ObstacleTracker, ABounceIsNoRestlessness) {
   }
 }
 
-TEST(ObstacleTracker, NoticesWhenACalmObstacleGetsRestless) {
+TEST(ObstacleTracker, NoticesWhenTheProcessNoiseOfAnObstacleGrows) {
   ObstacleTracker tracker;
   Wanderer obstacle{true, 0.0, 5, {0.5, 0.5}};
   for (int k = 0; k < 600; ++k) {

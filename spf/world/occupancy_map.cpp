@@ -190,8 +190,8 @@ Eigen::Vector2d OccupancyMap::distance_gradient(const Eigen::Vector2d& position_
   return patch.slope() / frame_.resolution;
 }
 
-// Distance falls by at most one metre a metre, so a place at distance d vouches for d - clearance around it;
-// a quarter of a cell is kept back for the interpolation, and is the smallest step.
+// Distance falls by at most one metre a metre, so a position at distance d vouches for d - clearance around
+// it; a quarter of a cell is kept back for the interpolation, and is the smallest step.
 bool OccupancyMap::segment_clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double clearance) const {
   double here = distance(a);
   if (!(std::min(here, distance(b)) >= clearance)) return false;

@@ -45,11 +45,12 @@ class OccupancyMap {
   void add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Pose2& frame_world);
 
   /// Takes over what was sensed in the map that this one replaces, in place of what was sensed in this one.
-  /// A place that is p there is turned by `moved` and then shifted by it: it is that frame's pose here. What
-  /// is known here already is left out. On the same grid, unmoved, nothing is lost; elsewhere free cells are.
+  /// A position that is p there is turned by `moved` and then shifted by it: it is that frame's pose here.
+  /// What is known here already is left out. On the same grid, unmoved, nothing is lost; elsewhere free cells
+  /// are.
   void take_over_sensed(const OccupancyMap& before, const Pose2& moved = {});
 
-  /// From here on a place is unknown until a beam has crossed it: there may be anything. Without this call
+  /// From here on a position is unknown until a beam has crossed it: there may be anything. Without this call
   /// the known shapes are all there is.
   void mark_unexplored() { unexplored_ = true; }
 
@@ -85,9 +86,9 @@ class OccupancyMap {
     return frame_.nearest_node(position_world);
   }
 
-  /// Whether every place of the segment from a to b keeps this distance [m]. Long free stretches cost one
+  /// Whether every position of the segment from a to b keeps this distance [m]. Long free stretches cost one
   /// look-up each (sphere tracing); near surfaces it looks every quarter of a cell, so it can miss a dip of
-  /// an eighth of a cell. Stops at the first place that is too near.
+  /// an eighth of a cell. Stops at the first position that is too near.
   [[nodiscard]] bool segment_clear(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                    double clearance) const;
 

@@ -25,8 +25,7 @@ int main(int argc, char** argv) {
     const spf::host::HostParameters derived = spf::sim::host_parameters_for(trial, file.agent);
     const spf::sim::DetectionQuality detections = trial.simulation.sensing.detections;
     file.host.relies_on_obstacles = detections != spf::sim::DetectionQuality::scan;
-    file.host.map_resolution = derived.map_resolution;
-    file.host.map_reach = derived.map_reach;
+    file.host.map_grain = derived.map_grain;
     file.host.plan_silence = derived.plan_silence;
     file.host.command_silence = derived.command_silence;
     file.host.clock_jump = derived.clock_jump;

@@ -9,7 +9,7 @@ SimulatedBases::SimulatedBases(int robots, const spf::RobotParameters& robot, do
     : kinematics_{robot}, period_{period}, bases_(static_cast<std::size_t>(robots)) {}
 
 void SimulatedBases::command_twist(int robot, const Eigen::Vector3d& twist_body, double time) {
-  Base& base = bases_[index(robot)];
+  Base& base = bases_[spf::as_index(robot)];
   if (!twist_body.allFinite()) {
     ++base.record.refused;
     return;
@@ -23,7 +23,7 @@ void SimulatedBases::command_twist(int robot, const Eigen::Vector3d& twist_body,
 }
 
 void SimulatedBases::command_wheels(int robot, const std::vector<double>& wheel_speeds, double time) {
-  Base& base = bases_[index(robot)];
+  Base& base = bases_[spf::as_index(robot)];
   if (wheel_speeds.size() != 3 || !std::all_of(wheel_speeds.begin(), wheel_speeds.end(),
                                                [](double speed) { return std::isfinite(speed); })) {
     ++base.record.refused;
@@ -48,7 +48,7 @@ void SimulatedBases::take(Base& base, const Eigen::Vector3d& wheel_speeds, doubl
 }
 
 Eigen::Vector3d SimulatedBases::wheels(int robot, double time) const {
-  const Base& base = bases_[index(robot)];
+  const Base& base = bases_[spf::as_index(robot)];
   if (!base.commanded || time - base.time > kWatchdog) return Eigen::Vector3d::Zero();
   return base.wheel_speeds;
 }

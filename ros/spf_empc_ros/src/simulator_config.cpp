@@ -74,7 +74,7 @@ void read_scenario(const ros::NodeHandle& own, SimulatorConfig& config, std::str
     for (const spf::InputProblem& warning : run.warnings) ROS_WARN("%s", spf::warning_text(warning).c_str());
     config.scenario = spf::make_trial(run, own.param("trial", 0));
     config.control_period = run.agent.tracker.control_period;
-    config.map_resolution = 0.5 * run.simulation.sensing.map_resolution;
+    config.map_resolution = 0.5 * run.simulation.sensing.map_grain.resolution;
   } catch (const std::exception& error) {
     problems += std::string{"\n"} + error.what();
   }

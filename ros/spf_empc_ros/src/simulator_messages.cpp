@@ -131,7 +131,7 @@ void add_place(const Scenario& scenario, WorldMarkers& markers) {
   }
   id = 0;
   for (const Disc& disc : scenario.discs)
-    markers.disc("pillar", id++, disc.center, disc.radius, kHeight, color(0.45F, 0.47F, 0.5F, 0.8F));
+    markers.disc("disc", id++, disc.center, disc.radius, kHeight, color(0.45F, 0.47F, 0.5F, 0.8F));
   id = 0;
   for (const Segment& wall : scenario.walls) markers.line("wall", id++, {wall.from, wall.to});
   if (!scenario.border) return;

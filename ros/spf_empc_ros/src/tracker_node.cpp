@@ -168,7 +168,7 @@ void TrackerNode::publish_status(const ros::Time& now, const spf::host::TrackerC
   message.plans_refused = host_.tracker().plans_refused();
   message.poses_refused = host_.localiser().poses_refused();
   message.guard_scale = command.guard.scale;
-  message.guard_way = command.guard.way;
+  message.guard_way = command.guard.free_distance;
   if (const spf::host::ScanGuard* guard = host_.tracker().guard())
     message.guard_stops = guard->counts().stops;
   status_.publish(message);

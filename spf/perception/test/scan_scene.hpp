@@ -33,9 +33,9 @@ struct ScanScene {
   [[nodiscard]] double cast(const BeamRay& ray, double time) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const SceneDisc& disc : discs) {
-      const Eigen::Vector2d way = disc.centre + time * disc.velocity - ray.origin_world;
-      const double along = way.dot(ray.direction_world);
-      const double beside = cross(ray.direction_world, way);
+      const Eigen::Vector2d offset = disc.centre + time * disc.velocity - ray.origin_world;
+      const double along = offset.dot(ray.direction_world);
+      const double beside = cross(ray.direction_world, offset);
       const double half = disc.radius * disc.radius - beside * beside;
       if (half < 0.0 || along < 0.0) continue;
       nearest = std::min(nearest, along - std::sqrt(half));

@@ -15,8 +15,8 @@ namespace spf {
 /// constant within one run, also in the gradients (eq. 12-13, paper_notes 5), and the field does not move
 /// with time.
 struct FieldCost {
-  double weight = 1.0;           ///< [1] omega_dyn lambda_i of one point on the ellipse
-  double safety_distance = 0.1;  ///< [m] d_saf, wanted beyond the guide point
+  double weight;           ///< [1] omega_dyn lambda_i of one point on the ellipse
+  double safety_distance;  ///< [m] d_saf, wanted beyond the guide point
 
   void add(const std::vector<GuidePair>& pairs, NodeSet& nodes) const;
 };

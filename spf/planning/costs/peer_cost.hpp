@@ -9,9 +9,10 @@
 
 namespace spf {
 
+/// Values come from PlannerParameters; there are no defaults here.
 struct PeerCost {
-  double weight = 1.0;     ///< [1/s] cost rate at contact
-  double clearance = 0.2;  ///< [m] wanted beyond contact
+  double weight;     ///< [1/s] cost rate at contact
+  double clearance;  ///< [m] wanted beyond contact
 
   /// With R the disc's contact distance, C = R + clearance and d the distance of the centres: P = weight *
   /// sum over discs of max(0, (C^2 - d^2) / (C^2 - R^2))^3, over the nodes 1 .. last_node. The discs move

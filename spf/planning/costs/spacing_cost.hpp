@@ -6,8 +6,8 @@
 namespace spf {
 
 struct SpacingCost {
-  double weight = 1.0;   ///< [1]
-  double spacing = 0.3;  ///< [m] distance of neighbouring nodes at which the mean cost is `weight`
+  double weight;   ///< [1]
+  double spacing;  ///< [m] distance of neighbouring nodes at which the mean cost is `weight`
 
   /// C = weight * mean over neighbours of (|p_{k+1} - p_k| / spacing)^4. A sum over points, not a time
   /// integral.

@@ -8,11 +8,12 @@
 
 namespace spf {
 
+/// Values come from PlannerParameters; there are no defaults here.
 struct StaticCost {
-  double hard_weight = 1.0;     ///< [1/s] cost rate on the edge (signed distance 0)
-  double soft_weight = 1.0;     ///< [1/s] approximate cost rate on the edge
-  double hard_clearance = 0.1;  ///< [m] wanted beyond the edge
-  double soft_clearance = 0.3;  ///< [m] comfortable beyond the edge
+  double hard_weight;     ///< [1/s] cost rate on the edge (signed distance 0)
+  double soft_weight;     ///< [1/s] approximate cost rate on the edge
+  double hard_clearance;  ///< [m] wanted beyond the edge
+  double soft_clearance;  ///< [m] comfortable beyond the edge
 
   /// With e = clearance - signed distance and r = kSoftScale soft_clearance, where positive:
   /// P = hard_weight (e_hard / hard_clearance)^3 + soft_weight (r / soft_clearance) (sqrt(1 + (e_soft / r)^2)

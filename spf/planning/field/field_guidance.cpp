@@ -180,7 +180,9 @@ int FieldGuidance::remembered_side(int track_id, double time) const {
 }
 
 void FieldGuidance::remember(int track_id, PassingSide side, double time) {
-  Memory* memory = const_cast<Memory*>(find(track_id));
+  const auto found = std::find_if(memory_.begin(), memory_.end(),
+                                  [track_id](const Memory& one) { return one.track_id == track_id; });
+  Memory* memory = found == memory_.end() ? nullptr : &*found;
   if (memory == nullptr) {
     if (memory_.size() < kMemorySize) {
       memory_.emplace_back();

@@ -11,7 +11,7 @@ constexpr double kRetryFirst = 0.2;    // [s] back-off after a failed plan; it d
 constexpr double kRetryLongest = 1.6;  // [s] longest back-off
 constexpr double kCommittedMargin =
     0.5;  // [1] of the margins: a plan is not dropped for a clearance with which it was accepted
-constexpr double kManoeuvreHorizon = 3.0;  // [s]
+constexpr double kPrimitiveHorizon = 3.0;  // [s]
 constexpr double kLinger = 0.5;            // [s] longer in a field than the quickest way out, at most
 constexpr double kTimeTolerance = 1e-9;    // [s]
 
@@ -45,7 +45,7 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
                                                    const PlanRequest& request) const {
   Threat threat;
   const double stop_time = request.head.velocity_world.norm() / robot_.max_acceleration;
-  const double until = std::max(trajectory.end_time(), request.time + kManoeuvreHorizon);
+  const double until = std::max(trajectory.end_time(), request.time + kPrimitiveHorizon);
   threat.report = check_.check(trajectory, {request.time, until, until, kCommittedMargin});
   threat.conflict = !threat.report.clear();
   threat.urgent =
@@ -55,7 +55,7 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
     threat.conflict = false;
   // The obstacle may be here soon: a trajectory has to leave the regions nearly as fast as possible.
   if (in_fields_) {
-    const double stay = check_.time_in_fields(trajectory, request.time, request.time + kManoeuvreHorizon);
+    const double stay = check_.time_in_fields(trajectory, request.time, request.time + kPrimitiveHorizon);
     threat.in_field = stay > way_out_.time_in_fields + kLinger;
     threat.conflict = threat.conflict || threat.in_field;
     threat.urgent = threat.urgent || threat.in_field;
@@ -68,7 +68,7 @@ void FieldReplanning::find_way_out(const PlanRequest& request) {
   in_fields_ = replanning_.retreat && check_.field_clearance(request.head.position_world) < 0.0;
   if (!in_fields_) return;
   way_out_ = best_emergency_manoeuvre(request.head, request.heading, request.time,
-                                      request.time + kManoeuvreHorizon, check_, robot_);
+                                      request.time + kPrimitiveHorizon, check_, robot_);
 }
 
 bool FieldReplanning::plan_due(const PlanRequest& request, const Threat& threat) const {
@@ -157,7 +157,7 @@ void FieldReplanning::fail(const PlanRequest& request, const Threat& threat, Pla
   const EmergencyManoeuvre manoeuvre =
       in_fields_ ? way_out_
                  : best_emergency_manoeuvre(request.head, request.heading, request.time,
-                                            request.time + kManoeuvreHorizon, check_, robot_);
+                                            request.time + kPrimitiveHorizon, check_, robot_);
   if (manoeuvre.sidestep && replanning_.retreat) {
     result.action = PlanAction::brake;
     result.trajectory = manoeuvre.trajectory;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kStep = 0.1;     // [radii of the robot] between dense samples where needed
 constexpr int kMaxSubsteps = 40;  // of one interval
-// [radii] a pair accounts for a collision unless the node is this far on its safe side
-constexpr double kExplained = 0.05 / 0.3;
+// [radii] a pair covers a collision unless the node is this far on its safe side
+constexpr double kCovered = 0.05 / 0.3;
 constexpr double kOutOfSurface = 0.01 / 0.3;  // [radii] clearance of a search's endpoints beyond the margin
 
 /// Cubic through two neighbouring nodes with their velocities, u in [0, 1].
@@ -181,11 +181,11 @@ bool GuidePairFinder::new_collision(const ClearanceModel& model, const NodeSet& 
   for (int k = 1; k + 1 < nodes.size(); ++k) {
     const Eigen::Vector2d& position = nodes[k].position;
     if (model.static_clearance(position) >= 0.0) continue;
-    bool explained = false;
+    bool covered = false;
     for (const GuidePair& pair : pairs)
-      explained = explained ||
-                  (pair.node == k && signed_distance(pair, position) < kExplained * model.robot_radius());
-    if (!explained) return true;
+      covered =
+          covered || (pair.node == k && signed_distance(pair, position) < kCovered * model.robot_radius());
+    if (!covered) return true;
   }
   return false;
 }

@@ -11,9 +11,8 @@ struct OrcaParameters {
   double time_horizon_static = 1.0;  ///< [s] likewise with static surfaces
   double neighbour_distance = 10.0;  ///< [m] between surfaces; who is farther does not count
   int max_neighbours = 16;           ///< [1] and of those within it only the nearest
-  double obstacle_share = 1.0;  ///< [1] of avoiding a moving obstacle; 1/2 takes it for one that avoids too
-  double period = 0.1;  ///< [s] a velocity is held this long: the agent's plan_period, no setting of its own
-  double goal_tolerance = 0.005;   ///< [m] nearer to the goal the preferred velocity is zero
+  double obstacle_share = 1.0;    ///< [1] of avoiding a moving obstacle; 1/2 takes it for one that avoids too
+  double goal_tolerance = 0.005;  ///< [m] nearer to the goal the preferred velocity is zero
   bool limit_acceleration = true;  ///< false: the chosen velocity is taken up at once, as published
 
   template <class Self, class Visitor>

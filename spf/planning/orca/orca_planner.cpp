@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "spf/math/angles.hpp"
 #include "spf/math/plane.hpp"
@@ -166,12 +168,15 @@ Eigen::Vector2d VelocityProgramme::least_violation(const std::vector<HalfPlane>&
   return best;
 }
 
-OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot,
+OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot, double period,
                          const PlannerParameters& planner)
     : parameters_{validated(parameters)},
       robot_{validated(robot)},
+      period_{period},
       programme_{static_cast<std::size_t>(parameters_.max_neighbours + kStaticSamples + 1)},
       judge_{validated(planner), robot_} {
+  if (!(period > 0.0))
+    throw std::invalid_argument{"period = " + std::to_string(period) + " [s] must be positive"};
   const auto neighbours = static_cast<std::size_t>(parameters_.max_neighbours);
   const auto points = static_cast<std::size_t>(kStaticSamples + 1);
   surface_points_.reserve(points);
@@ -214,12 +219,11 @@ Eigen::Vector2d OrcaPlanner::wanted_velocity(const PlanRequest& request) const {
   const Eigen::Vector2d& position = request.head.position_world;
   const double distance = guide.cost_to_go(position);
   if (distance < parameters_.goal_tolerance) return Eigen::Vector2d::Zero();
-  const double period = parameters_.period;
-  double speed = distance / period;
+  double speed = distance / period_;
   if (parameters_.limit_acceleration) {
     // One period at this speed and then braking at the limit ends at the goal.
     const double limit = robot_.max_acceleration;
-    speed = limit * (std::sqrt(period * period + 2.0 * distance / limit) - period);
+    speed = limit * (std::sqrt(period_ * period_ + 2.0 * distance / limit) - period_);
   }
   const Eigen::Vector2d velocity = std::min(speed, robot_.max_speed) * guide.direction(position);
   const double bias = neighbours_.empty() ? 0.0 : kRightHandBias;
@@ -240,8 +244,7 @@ void OrcaPlanner::add_static_planes(const PlanRequest& request, const Eigen::Vec
   if (distance > farthest) return;
   const Eigen::Vector2d outward = map.distance_gradient(position).stableNormalized();
   if (!(distance > 0.0)) {  // inside a wall: straight out of it
-    planes_.push_back(
-        {outward.isZero() ? Eigen::Vector2d{1.0, 0.0} : outward, (reach - distance) / parameters_.period});
+    planes_.push_back({outward.isZero() ? Eigen::Vector2d{1.0, 0.0} : outward, (reach - distance) / period_});
     return;
   }
   add_surface_point(request, position);
@@ -253,8 +256,8 @@ void OrcaPlanner::add_static_planes(const PlanRequest& request, const Eigen::Vec
   for (const Eigen::Vector2d& point : surface_points_) {
     if (point.norm() > farthest) continue;
     const Encounter encounter{point, request.head.velocity_world, Eigen::Vector2d::Zero(), reach, 1.0};
-    planes_.push_back(allowed_velocities(encounter, parameters_.time_horizon_static, parameters_.period,
-                                         -point / point.norm()));
+    planes_.push_back(
+        allowed_velocities(encounter, parameters_.time_horizon_static, period_, -point / point.norm()));
   }
 }
 
@@ -316,8 +319,8 @@ void OrcaPlanner::collect(Neighbour neighbour, double other_radius) {
 
 void OrcaPlanner::add_neighbour_planes() {
   for (const Neighbour& neighbour : neighbours_) {
-    planes_.push_back(allowed_velocities(neighbour.encounter, parameters_.time_horizon, parameters_.period,
-                                         neighbour.way_out));
+    planes_.push_back(
+        allowed_velocities(neighbour.encounter, parameters_.time_horizon, period_, neighbour.way_out));
   }
 }
 
@@ -343,14 +346,13 @@ Trajectory OrcaPlanner::trajectory_for(const PlanRequest& request, const Eigen::
   if (parameters_.limit_acceleration) {
     const Eigen::Vector2d present = request.head.velocity_world;
     const double needed = (velocity - present).norm() / limit;
-    ramp = std::min(needed, parameters_.period);
+    ramp = std::min(needed, period_);
     if (ramp < needed) reached = present + (velocity - present) * (ramp / needed);
     if (ramp > kShortest) append_ramp(trajectory, position, present, reached, ramp);
   }
   const double speed = reached.norm();
   if (ramp <= kShortest && speed < kRestSpeed) return Trajectory::standing(position, request.time, kRestTime);
-  if (parameters_.period - ramp > kShortest)
-    append_ramp(trajectory, position, reached, reached, parameters_.period - ramp);
+  if (period_ - ramp > kShortest) append_ramp(trajectory, position, reached, reached, period_ - ramp);
   if (speed > kRestSpeed) append_ramp(trajectory, position, reached, Eigen::Vector2d::Zero(), speed / limit);
   return trajectory;
 }

@@ -68,9 +68,10 @@ class VelocityProgramme {
 
 class OrcaPlanner final : public Planner {
  public:
-  /// Throws std::invalid_argument when parameters are out of range. All memory is allocated here. `planner`
-  /// holds the margins of the clearance check.
-  OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot,
+  /// A velocity is held for `period` [s] > 0, until the next plan; `planner` holds the margins of the
+  /// clearance check. Throws std::invalid_argument when parameters are out of range. All memory is allocated
+  /// here.
+  OrcaPlanner(const OrcaParameters& parameters, const RobotParameters& robot, double period,
               const PlannerParameters& planner = {});
 
   /// The trajectory holds the chosen velocity for one period, then brakes to rest: a robot that gets no
@@ -99,6 +100,7 @@ class OrcaPlanner final : public Planner {
 
   OrcaParameters parameters_;
   RobotParameters robot_;
+  double period_;                                // [s]
   std::vector<Eigen::Vector2d> surface_points_;  // [m] from the robot
   std::vector<Neighbour> neighbours_;            // nearest first
   std::vector<HalfPlane> planes_;                // of surfaces, then of neighbours_

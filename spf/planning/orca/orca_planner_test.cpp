@@ -223,7 +223,7 @@ class OrcaPlannerTest : public ::testing::Test {
     return parameters;
   }
   Robot robot_at(const Vector2d& start, const Vector2d& goal, const OrcaParameters& parameters) const {
-    Robot made{OrcaPlanner{parameters, robot},
+    Robot made{OrcaPlanner{parameters, robot, kPeriod},
                CostToGo{CostToGoParameters{}},
                goal,
                Trajectory::standing(start, 0.0, 1.0),
@@ -489,7 +489,8 @@ TEST_F(OrcaPlannerTest, RefusesParametersOutOfRange) {
   parameters.time_horizon = 0.0;
   parameters.margin = std::nan("");
   EXPECT_EQ(problems(parameters).size(), 2u);
-  EXPECT_THROW(OrcaPlanner(parameters, robot), std::invalid_argument);
+  EXPECT_THROW(OrcaPlanner(parameters, robot, kPeriod), std::invalid_argument);
+  EXPECT_THROW(OrcaPlanner(OrcaParameters{}, robot, 0.0), std::invalid_argument);
 }
 
 }  // namespace

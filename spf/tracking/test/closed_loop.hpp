@@ -43,18 +43,19 @@ class Tracker {
 
   /// The estimate carried to a time not before the last call [s], without changing anything.
   [[nodiscard]] StateEstimate estimate(double time) const { return estimator_.estimate(time); }
-  [[nodiscard]] const TrackerOutput& last_output() const { return controller_.last_output(); }
+  [[nodiscard]] const TrackerOutput& last_output() const { return output_; }
   [[nodiscard]] const TrajectoryController& controller() const { return controller_; }
 
  private:
   const TrackerOutput& apply(double time, const TrackerOutput& output) {
     estimator_.apply(time, output.wheel_speeds);
-    return output;
+    return output_ = output;
   }
 
   OmniKinematics kinematics_;
   MotionEstimator estimator_;
   TrajectoryController controller_;
+  TrackerOutput output_;
 };
 
 }  // namespace spf

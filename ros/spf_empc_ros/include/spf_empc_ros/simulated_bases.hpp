@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "spf/math/index.hpp"
 #include "spf/robot/omni_kinematics.hpp"
 
 namespace spf_empc_ros {
@@ -35,7 +36,7 @@ class SimulatedBases {
 
   /// What the motors are told at a time [m/s].
   [[nodiscard]] Eigen::Vector3d wheels(int robot, double time) const;
-  [[nodiscard]] const CommandRecord& record(int robot) const { return bases_[index(robot)].record; }
+  [[nodiscard]] const CommandRecord& record(int robot) const { return bases_[spf::as_index(robot)].record; }
 
  private:
   struct Base {
@@ -44,7 +45,6 @@ class SimulatedBases {
     bool commanded = false;
     CommandRecord record;
   };
-  [[nodiscard]] static std::size_t index(int robot) { return static_cast<std::size_t>(robot); }
   void take(Base& base, const Eigen::Vector3d& wheel_speeds, double time) const;
 
   spf::OmniKinematics kinematics_;

@@ -1,4 +1,4 @@
-// Numbers of beams, segments and tracks as subscripts.
+// Numbers that count something (steps, beams, robots) as subscripts; they must not be negative.
 #pragma once
 
 #include <cstddef>

@@ -1,0 +1,25 @@
+# cmake -D STATUS=N -D MATCHES=REGEX [-D LACKS=REGEX] -P ExpectOutput.cmake -- PROGRAM ARGUMENT...
+# Runs a program, and fails unless it ends with this status and what it prints matches one expression and not the other.
+# ctest's own PASS_REGULAR_EXPRESSION ignores the status, and WILL_FAIL takes any failure for the one that is meant.
+set(command "")
+set(seen OFF)
+math(EXPR last "${CMAKE_ARGC} - 1")
+foreach(index RANGE ${last})
+  if(seen)
+    list(APPEND command "${CMAKE_ARGV${index}}")
+  elseif(CMAKE_ARGV${index} STREQUAL "--")
+    set(seen ON)
+  endif()
+endforeach()
+
+execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+message("${output}")
+if(NOT status STREQUAL STATUS)
+  message(FATAL_ERROR "ended with ${status} instead of ${STATUS}")
+endif()
+if(NOT output MATCHES "${MATCHES}")
+  message(FATAL_ERROR "nothing in it matches ${MATCHES}")
+endif()
+if(LACKS AND output MATCHES "${LACKS}")
+  message(FATAL_ERROR "something in it matches ${LACKS}")
+endif()
