@@ -39,7 +39,7 @@ class PlanJudgeTest : public ::testing::Test {
   OccupancyMap map{GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
-  CostToGo guide{CostToGoParameters{}};
+  CostToGo guide{CostToGoParameters{}, 0.2};
   PlanRequest request;
   PlanResult result;
   PlanJudge judge{PlannerParameters{}, RobotParameters{}};

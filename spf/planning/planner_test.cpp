@@ -25,7 +25,7 @@ class PlanRequestTest : public ::testing::Test {
     request.guide = &guide;
   }
   OccupancyMap map{GridFrame::covering({-5.0, -5.0}, {5.0, 5.0}, 0.1), 2.0};
-  CostToGo guide{CostToGoParameters{}};
+  CostToGo guide{CostToGoParameters{}, 0.2};
   PlanRequest request;
   PlanResult result;
 };

@@ -60,7 +60,7 @@ class SightLimitTest : public ::testing::Test {
 
   RobotParameters robot;
   OccupancyMap map;
-  CostToGo guide{CostToGoParameters{}};
+  CostToGo guide{CostToGoParameters{}, 0.2};
   PlanRequest request;
   SightLimit limit{robot, 0.02};
 };

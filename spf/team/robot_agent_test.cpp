@@ -239,7 +239,7 @@ TEST_P(RobotAgentTest, NamesThePeerThatIsParkedInTheOnlyGap) {
         told_by(9, ++sequence, time, PeerState::arrived, Trajectory::standing(place, time, 1.0)));
   };
   host.agent.set_goal({4.0, 0.0});
-  host.run(15.0);
+  host.run(25.0);
   for (int i = 0; i < 20; ++i) {
     host.run(0.1);
     EXPECT_LT(host.speed(), 0.05);

@@ -146,8 +146,7 @@ void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence
     for (int i = 0; i < 3; ++i)
       if (held_[as_index(k)][static_cast<std::size_t>(i)])
         take_out(i, curvature, gradient, by_state, by_previous);
-    Cholesky3& factor = factors_[as_index(k)];
-    factor = Cholesky3{curvature};
+    Cholesky3& factor = factors_[as_index(k)] = Cholesky3{curvature};
     feedback.step = -factor.solve(gradient);
     if (k > 0 || kRate) {
       feedback.by_state = -factor.solve(by_state);

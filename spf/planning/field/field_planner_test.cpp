@@ -29,7 +29,7 @@ struct PlannerScene {
   std::unique_ptr<OccupancyMap> map;
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
-  CostToGo guide{CostToGoParameters{}};
+  CostToGo guide{CostToGoParameters{}, 0.2};
   PlanRequest request;
 
   void finish(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, int robot_id = 3) {

@@ -224,7 +224,7 @@ class OrcaPlannerTest : public ::testing::Test {
   }
   Robot robot_at(const Vector2d& start, const Vector2d& goal, const OrcaParameters& parameters) const {
     Robot made{OrcaPlanner{parameters, robot, kPeriod},
-               CostToGo{CostToGoParameters{}},
+               CostToGo{CostToGoParameters{}, 0.2},
                goal,
                Trajectory::standing(start, 0.0, 1.0),
                {}};

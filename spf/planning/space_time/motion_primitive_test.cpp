@@ -15,7 +15,7 @@ class MotionPrimitiveTest : public ::testing::Test {
   MotionPrimitiveTest() { guide.update(map, {8.0, 0.0}, {0.0, 0.0}); }
 
   OccupancyMap map{GridFrame::covering({-10.0, -10.0}, {10.0, 10.0}, 0.1), 2.0};
-  CostToGo guide{CostToGoParameters{}};
+  CostToGo guide{CostToGoParameters{}, 0.2};
   RollOutSettings settings;
   RollOut result;
 };

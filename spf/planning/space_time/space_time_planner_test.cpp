@@ -89,7 +89,7 @@ class SpaceTimePlannerTest : public ::testing::Test {
   OccupancyMap map;
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
-  CostToGo guide{CostToGoParameters{}};
+  CostToGo guide{CostToGoParameters{}, 0.2};
   PlanRequest request;
   SpaceTimePlanner planner = make_planner();
   PlanResult result;
