@@ -26,7 +26,7 @@ std::string wheel_chart(const sim::Recording& recording, const std::string& meth
   chart.limits = {{"limit", limit}, {"", -limit}};
   double most = 0.0;
   for (std::size_t i = 0; i < recording.scenario.robots.size(); ++i) {
-    ChartSeries series{"robot " + std::to_string(i), static_cast<int>(i), {}, false};
+    ChartSeries series{"robot " + std::to_string(i), static_cast<int>(i), {}, SeriesLook::line};
     for (const sim::RecordedFrame& frame : recording.frames) {
       const double speed = frame.robots[i].wheel_speeds[wheel];
       most = std::max(most, std::abs(speed));

@@ -118,7 +118,7 @@ std::vector<std::string> success_charts(const CampaignParts& parts) {
     LineChart chart{panel, {"noise level [Sigma]"}, {"success [%]", false, false, 0.0, 100.0}, {}, {}};
     std::size_t most = 0;
     for (const std::string& method : methods) {
-      ChartSeries series{method, style_of(methods, method), {}, true};
+      ChartSeries series{method, style_of(methods, method), {}};
       for (const CellTrials& cell : parts.cells) {
         const TrialKey& key = cell.front().key;
         if (panel_of(key) != panel || key.method != method) continue;

@@ -5,28 +5,38 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "report/html_text.hpp"
 #include "report/palette.hpp"
+#include "report/polyline.hpp"
+#include "report/table.hpp"
 
 namespace spf {
 namespace {
 
-constexpr double kWidth = 460.0;  // [px]
-constexpr double kLeft = 46.0, kRight = 14.0, kTop = 30.0;
+/// Width of a chart, edges of its plotting area, and what line charts keep free inside of it [px].
+struct Layout {
+  double width, left, right, top, bottom, aside, above;
+};
+constexpr Layout kFile{460.0, 46.0, 446.0, 44.0, 250.0, 12.0, 0.0};
+constexpr Layout kPage{370.0, 46.0, 356.0, 24.0, 164.0, 0.0, 8.0};
+constexpr double kRowsTop = 30.0;
+constexpr double kPathUnits = 2.0;  // [1/px] paths are whole numbers of half pixels: short, and fine enough
+constexpr double kPathTolerance = 0.5;  // [half px] by which a line may be thinned
 
 struct SeriesStyle {
   const char* color;
-  const char* dash;
+  const char* dash;  // [half px]
 };
 constexpr std::array<SeriesStyle, 8> kStyles{{{"robot-0", ""},
-                                              {"series-1", "7 3"},
-                                              {"robot-3", "2 3"},
-                                              {"robot-2", "9 3 2 3"},
-                                              {"robot-1", "12 4"},
-                                              {"robot-4", "5 2"},
-                                              {"bad", "3 6"},
-                                              {"text", "1 2"}}};
+                                              {"series-1", "14 6"},
+                                              {"robot-3", "4 6"},
+                                              {"robot-2", "18 6 4 6"},
+                                              {"robot-1", "24 8"},
+                                              {"robot-4", "10 4"},
+                                              {"bad", "6 12"},
+                                              {"text", "2 4"}}};
 const SeriesStyle& style_of(int index) {
   return kStyles[static_cast<std::size_t>(std::max(index, 0)) % kStyles.size()];
 }
@@ -35,9 +45,7 @@ std::string color_of(int index) {
 }
 
 std::string px(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f", std::abs(value) < 0.05 ? 0.0 : value);
-  return text.data();
+  return fixed(value, 1);
 }
 std::string tick_text(double value) {
   std::array<char, 32> text{};
@@ -54,6 +62,11 @@ std::string line_between(double x1, double y1, double x2, double y2, const std::
                          const std::string& more = "") {
   return "<line x1=\"" + px(x1) + "\" y1=\"" + px(y1) + "\" x2=\"" + px(x2) + "\" y2=\"" + px(y2) +
          "\" stroke=\"" + stroke + "\"" + more + "/>\n";
+}
+
+std::string rectangle(double x1, double x2, double y, double height, const std::string& attributes) {
+  return "<rect x=\"" + px(x1) + "\" y=\"" + px(y) + "\" width=\"" + px(std::max(0.5, x2 - x1)) +
+         "\" height=\"" + px(height) + "\" " + attributes + "/>\n";
 }
 
 /// Maps values to pixels, with the ticks to label.
@@ -136,30 +149,35 @@ struct Span {
   }
 };
 
-std::string opened(const std::string& title, double height) {
-  return "<svg viewBox=\"0 0 " + px(kWidth) + " " + px(height) +
-         "\" role=\"img\" font-family=\"system-ui, sans-serif\" font-size=\"13\" fill=\"none\">\n<title>" +
-         escape_html(title) + "</title>\n" +
-         text_at(4.0, 16.0, title, "start", "text", " font-weight=\"650\"");
+ReplayPoint half_px(double x, double y) {
+  return {kPathUnits * x, kPathUnits * y};
 }
 
-std::string x_axis(const ChartAxis& axis, const Scale& x, double top, double bottom) {
+std::string opened(const std::string& title, double width, double height) {
+  return "<svg viewBox=\"0 0 " + px(width) + " " + px(height) + "\" role=\"img\" aria-label=\"" +
+         escape_html(title) + "\" font-family=\"system-ui, sans-serif\" font-size=\"13\" fill=\"none\">\n";
+}
+std::string heading(const std::string& title) {
+  return text_at(4.0, 16.0, title, "start", "text", " font-weight=\"650\"");
+}
+
+std::string x_axis(const ChartAxis& axis, const Scale& x, const Layout& area) {
   std::string svg;
   for (const double tick : x.ticks()) {
-    svg += line_between(x(tick), top, x(tick), bottom, "var(--grid)");
-    svg += text_at(x(tick), bottom + 16.0, tick_text(tick), "middle");
+    svg += line_between(x(tick), area.top, x(tick), area.bottom, "var(--grid)");
+    svg += text_at(x(tick), area.bottom + 16.0, tick_text(tick), "middle");
   }
-  svg += line_between(kLeft, bottom, kWidth - kRight, bottom, "var(--control)");
-  return svg + text_at(0.5 * (kLeft + kWidth - kRight), bottom + 33.0, axis.label, "middle");
+  svg += line_between(area.left, area.bottom, area.right, area.bottom, "var(--control)");
+  return svg + text_at(0.5 * (area.left + area.right), area.bottom + 33.0, axis.label, "middle");
 }
 
-std::string y_axis(const ChartAxis& axis, const Scale& y) {
+std::string y_axis(const ChartAxis& axis, const Scale& y, const Layout& area) {
   std::string svg;
   for (const double tick : y.ticks()) {
-    svg += line_between(kLeft, y(tick), kWidth - kRight, y(tick), "var(--grid)");
-    svg += text_at(kLeft - 6.0, y(tick) + 4.0, tick_text(tick), "end");
+    svg += line_between(area.left, y(tick), area.right, y(tick), "var(--grid)");
+    svg += text_at(area.left - 6.0, y(tick) + 4.0, tick_text(tick), "end");
   }
-  return svg + text_at(kLeft - 40.0, kTop + 6.0, axis.label, "start");
+  return svg + text_at(area.left - 40.0, area.top - 8.0, axis.label, "start");
 }
 
 std::string marker(double x, double y, int style) {
@@ -180,37 +198,55 @@ std::string marker(double x, double y, int style) {
   }
 }
 
-std::string dashed(int style) {
-  const std::string dash = style_of(style).dash;
-  return " stroke-width=\"2\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"");
+/// Unbroken pieces [half px] as a line, or their points as dots or crosses.
+std::string path_of(std::vector<std::vector<ReplayPoint>> pieces, const ChartSeries& series) {
+  std::string data, more;
+  if (series.look == SeriesLook::dots) {
+    data = path_data(pieces, "h0");
+    more = " stroke-width=\"9\" stroke-linecap=\"round\"";
+  } else if (series.look == SeriesLook::crosses) {
+    data = path_data(pieces, "m-6-6l12 12m0-12l-12 12m6-6");
+    more = " stroke-width=\"3\"";
+  } else {
+    for (std::vector<ReplayPoint>& piece : pieces)
+      piece = thinned(column_extremes(piece, kPathUnits), kPathTolerance);
+    data = path_data(pieces, "");
+    const std::string dash = style_of(series.style).dash;
+    more = " stroke-width=\"4\" stroke-linejoin=\"round\"" +
+           (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"");
+  }
+  if (data.empty()) return "";
+  return "<path transform=\"scale(.5)\" stroke=\"" + color_of(series.style) + "\"" + more + " d=\"" + data +
+         "\"/>\n";
 }
 
-std::string legend(const std::vector<ChartSeries>& series, double top) {
+std::string legend(const std::vector<ChartSeries>& series, double left, double top) {
   std::string svg;
   for (std::size_t i = 0; i < series.size(); ++i) {
     const double y = top + 17.0 * static_cast<double>(i);
-    svg += line_between(kLeft, y, kLeft + 34.0, y, color_of(series[i].style), dashed(series[i].style));
-    if (series[i].markers) svg += marker(kLeft + 17.0, y, series[i].style);
-    svg += text_at(kLeft + 42.0, y + 4.5, series[i].name, "start", "text");
+    svg += path_of({{half_px(left, y), half_px(left + 34.0, y)}}, series[i]);
+    if (series[i].look == SeriesLook::line_and_markers) svg += marker(left + 17.0, y, series[i].style);
+    svg += text_at(left + 42.0, y + 4.5, series[i].name, "start", "text");
   }
   return svg;
 }
 
 std::string series_marks(const ChartSeries& series, const Scale& x, const Scale& y, double shift) {
-  std::string points, marks;
+  std::string marks;
+  std::vector<std::vector<ReplayPoint>> pieces(1);
   for (const ChartPoint& point : series.points) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+      pieces.emplace_back();
+      continue;
+    }
     const double at = x(point.x) + shift;
-    points += px(at) + "," + px(y(point.y)) + " ";
+    pieces.back().push_back(half_px(at, y(point.y)));
     if (point.low < point.high)
       marks +=
           line_between(at, y(point.low), at, y(point.high), color_of(series.style), " stroke-width=\"1.5\"");
-    if (series.markers) marks += marker(at, y(point.y), series.style);
+    if (series.look == SeriesLook::line_and_markers) marks += marker(at, y(point.y), series.style);
   }
-  if (points.empty()) return "";
-  points.pop_back();
-  return "<polyline points=\"" + points + "\" stroke=\"" + color_of(series.style) + "\"" +
-         dashed(series.style) + " stroke-linejoin=\"round\"/>\n" + marks;
+  return path_of(std::move(pieces), series) + marks;
 }
 
 void span_of_row(const ChartRow& row, RowKind kind, Span& span) {
@@ -232,11 +268,6 @@ void span_of_row(const ChartRow& row, RowKind kind, Span& span) {
   }
 }
 
-std::string rectangle(double x1, double x2, double y, double height, const std::string& attributes) {
-  return "<rect x=\"" + px(x1) + "\" y=\"" + px(y) + "\" width=\"" + px(std::max(0.5, x2 - x1)) +
-         "\" height=\"" + px(height) + "\" " + attributes + "/>\n";
-}
-
 std::string box_marks(const ChartRow& row, const Scale& x, double y) {
   if (row.quantiles.size() != 5 || !std::isfinite(row.quantiles[0])) return "";
   const std::string color = color_of(row.style);
@@ -250,7 +281,7 @@ std::string box_marks(const ChartRow& row, const Scale& x, double y) {
 std::string bar_marks(const ChartRow& row, const Scale& x, double y) {
   if (!std::isfinite(row.bar)) return "";
   const std::string color = color_of(row.style);
-  std::string svg = rectangle(kLeft, x(row.bar), y, 12.0, "fill=\"" + color + "\"");
+  std::string svg = rectangle(kFile.left, x(row.bar), y, 12.0, "fill=\"" + color + "\"");
   if (std::isfinite(row.whisker))
     svg += line_between(x(row.bar), y + 6.0, x(row.whisker), y + 6.0, color, " stroke-width=\"2\"") +
            line_between(x(row.whisker), y + 1.0, x(row.whisker), y + 11.0, color, " stroke-width=\"2\"");
@@ -293,22 +324,27 @@ std::string line_chart(const LineChart& chart) {
       }
     }
   for (const ChartLimit& limit : chart.limits) ys.add(limit.y);
-  const double bottom = 250.0;
-  const Scale x{chart.x, xs.low, xs.high, kLeft + 12.0, kWidth - kRight - 12.0};
-  const Scale y{chart.y, ys.low, ys.high, bottom, kTop + 14.0};
-  const double height = bottom + 48.0 + 17.0 * static_cast<double>(chart.series.size());
-  std::string svg =
-      opened(chart.title, height) + x_axis(chart.x, x, kTop + 14.0, bottom) + y_axis(chart.y, y);
+  const Layout& area = chart.in_page ? kPage : kFile;
+  const Scale x{chart.x, xs.low, xs.high, area.left + area.aside, area.right - area.aside};
+  const Scale y{chart.y, ys.low, ys.high, area.bottom - area.above, area.top + area.above};
+  const double legend_top = area.bottom + 48.0;
+  const double height =
+      chart.in_page ? legend_top - 10.0 : legend_top + 17.0 * static_cast<double>(chart.series.size());
+  std::string svg = opened(chart.title, area.width, height) +
+                    rectangle(area.left, area.right, area.top, area.bottom - area.top, "class=\"area\"") +
+                    x_axis(chart.x, x, area) + y_axis(chart.y, y, area);
   for (const ChartLimit& limit : chart.limits)
-    svg += line_between(kLeft, y(limit.y), kWidth - kRight, y(limit.y), "var(--limit)",
+    svg += line_between(area.left, y(limit.y), area.right, y(limit.y), "var(--limit)",
                         " stroke-width=\"1.5\" stroke-dasharray=\"6 4\"") +
-           text_at(kWidth - kRight - 2.0, y(limit.y) - 5.0, limit.name, "end", "limit");
+           text_at(area.right - 2.0, y(limit.y) - 5.0, limit.name, "end", "limit");
   // Intervals side by side, where several series have points at the same level.
   const double middle = 0.5 * (static_cast<double>(chart.series.size()) - 1.0);
-  for (std::size_t i = 0; i < chart.series.size(); ++i)
-    svg += series_marks(chart.series[i], x, y,
-                        chart.series[i].markers ? 3.5 * (static_cast<double>(i) - middle) : 0.0);
-  return svg + legend(chart.series, bottom + 48.0) + "</svg>\n";
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    const bool has_markers = chart.series[i].look == SeriesLook::line_and_markers;
+    svg += series_marks(chart.series[i], x, y, has_markers ? 3.5 * (static_cast<double>(i) - middle) : 0.0);
+  }
+  if (!chart.in_page) svg += heading(chart.title) + legend(chart.series, area.left, legend_top);
+  return svg + "</svg>\n";
 }
 
 std::string row_chart(const RowChart& chart) {
@@ -317,12 +353,13 @@ std::string row_chart(const RowChart& chart) {
   if (chart.kind == RowKind::bar && chart.x.logarithmic) span.low *= 0.5;
   const double mark_height = chart.kind == RowKind::histogram ? 34.0 : 12.0;
   const double row_height = 24.0 + mark_height;
-  const double bottom = kTop + row_height * static_cast<double>(chart.rows.size()) + 6.0;
-  const Scale x{chart.x, span.low, span.high, kLeft, kWidth - kRight};
-  std::string svg = opened(chart.title, bottom + 42.0) + x_axis(chart.x, x, kTop, bottom);
+  const double bottom = kRowsTop + row_height * static_cast<double>(chart.rows.size()) + 6.0;
+  const Scale x{chart.x, span.low, span.high, kFile.left, kFile.right};
+  std::string svg = opened(chart.title, kFile.width, bottom + 42.0) + heading(chart.title) +
+                    x_axis(chart.x, x, {kFile.width, kFile.left, kFile.right, kRowsTop, bottom, 0.0, 0.0});
   for (std::size_t i = 0; i < chart.rows.size(); ++i) {
     const ChartRow& row = chart.rows[i];
-    const double top = kTop + row_height * static_cast<double>(i);
+    const double top = kRowsTop + row_height * static_cast<double>(i);
     svg += "<text x=\"4\" y=\"" + px(top + 14.0) + "\" fill=\"var(--text)\">" + escape_html(row.label) +
            " <tspan fill=\"var(--muted)\">" + escape_html(row.note) + "</tspan></text>\n";
     const double y = top + 19.0;

@@ -1,7 +1,7 @@
 // Charts as SVG: values against levels with intervals, quantile boxes, histograms, bars, and profiles over
 // time. Colours are the palette's CSS variables, so a chart inside a page follows its theme; standalone()
 // makes a file of its own out of one. Series differ by colour, dash and marker. Values that are not finite
-// are not drawn.
+// are gaps. Lines are thinned to what can be seen, so series may be long.
 #pragma once
 
 #include <string>
@@ -21,11 +21,12 @@ struct ChartPoint {
   double x = 0.0, y = 0.0;
   double low = 0.0, high = 0.0;  ///< of the interval around y; drawn where low < high
 };
+enum class SeriesLook { line_and_markers, line, dots, crosses };
 struct ChartSeries {
   std::string name;
   int style = 0;  ///< series of equal style look alike
   std::vector<ChartPoint> points;
-  bool markers = true;
+  SeriesLook look = SeriesLook::line_and_markers;
 };
 /// A horizontal line with its name, such as a limit.
 struct ChartLimit {
@@ -37,6 +38,9 @@ struct LineChart {
   ChartAxis x, y;
   std::vector<ChartSeries> series;
   std::vector<ChartLimit> limits;
+  /// For a page that writes heading and legend itself: smaller, without them. The x axis then spans exactly
+  /// the rectangle of class "area".
+  bool in_page = false;
 };
 [[nodiscard]] std::string line_chart(const LineChart& chart);
 

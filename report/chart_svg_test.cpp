@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <regex>
+#include <string>
+#include <vector>
 
 namespace spf {
 namespace {
@@ -41,10 +44,82 @@ TEST(LineChart, DrawsEveryKnownPointAndItsInterval) {
 
 TEST(LineChart, PutsHigherValuesHigher) {
   const std::string svg = line_chart(rising());
-  const std::regex line{"polyline points=\"[0-9.]+,([0-9.]+) [0-9.]+,([0-9.]+)\""};
+  const std::regex line{"cy=\"([0-9.]+)\"[^|]*cy=\"([0-9.]+)\""};
   std::smatch match;
   ASSERT_TRUE(std::regex_search(svg, match, line));
   EXPECT_LT(std::stod(match[1]), std::stod(match[2]));  // 90 % above 50 %: y points down
+}
+
+/// Places [px] that the chart's n-th path visits, without its marks.
+std::vector<ChartPoint> visited(const std::string& svg, int which) {
+  std::size_t at = svg.find(" d=\"");
+  for (; which > 0; --which) at = svg.find(" d=\"", at + 1);
+  const std::string data = svg.substr(at + 4, svg.find('"', at + 4) - at - 4);
+  std::vector<ChartPoint> places;
+  double x = 0.0, y = 0.0;
+  const std::regex pair{"(-?[0-9]+)[ ]?(-[0-9]+|[0-9]+)"};
+  for (std::sregex_iterator i{data.begin(), data.end(), pair}, end; i != end; ++i) {
+    x += 0.5 * std::stod((*i)[1]);
+    y += 0.5 * std::stod((*i)[2]);
+    places.push_back({x, y});
+  }
+  return places;
+}
+
+LineChart in_page(std::vector<ChartPoint> points) {
+  LineChart chart;
+  chart.title = "<name>";
+  chart.x = {"time [s]", false, false, 0.0, 10.0};
+  chart.y = {"speed [m/s]", false, false, -1.0, 1.0};
+  chart.series = {{"named", 0, std::move(points), SeriesLook::line}};
+  chart.in_page = true;
+  return chart;
+}
+
+TEST(LineChart, LeavesGapsWhereNothingIsKnown) {
+  const std::string svg = line_chart(in_page({{0.0, 0.0}, {1.0, 0.5}, {2.0, kNan}, {3.0, 0.5}, {4.0, 0.0}}));
+  EXPECT_TRUE(std::regex_search(svg, std::regex{" d=\"m[^m\"]+m[^m\"]+\""}));
+  EXPECT_EQ(visited(svg, 0).size(), 4U);
+}
+
+TEST(LineChart, SpansItsAreaInAPageThatHasHeadingAndLegend) {
+  const std::string svg = line_chart(in_page({{0.0, -0.5}, {5.0, 0.5}, {10.0, -0.5}}));
+  EXPECT_THAT(svg, HasSubstr("aria-label=\"&lt;name&gt;\""));
+  EXPECT_EQ(count_of(svg, "name"), 1);
+  std::smatch area;
+  ASSERT_TRUE(std::regex_search(
+      svg, area,
+      std::regex{"x=\"([0-9.]+)\" y=\"[0-9.]+\" width=\"([0-9.]+)\" height=\"[0-9.]+\" class=\"area\""}));
+  const std::vector<ChartPoint> places = visited(svg, 0);
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_DOUBLE_EQ(places.front().x, std::stod(area[1]));
+  EXPECT_DOUBLE_EQ(places.back().x, std::stod(area[1]) + std::stod(area[2]));
+}
+
+TEST(LineChart, ThinsALongLineToItsPixelsAndKeepsThePeak) {
+  std::vector<ChartPoint> points;
+  for (int i = 0; i <= 100000; ++i) points.push_back({1e-4 * i, i % 2 == 0 ? 0.1 : -0.1});
+  points[54321].y = 0.9;
+  const std::string svg = line_chart(in_page(points));
+  const std::vector<ChartPoint> places = visited(svg, 0);
+  EXPECT_LE(places.size(), 4U * 311U);
+  double top = 1e9, bottom = -1e9;
+  for (const ChartPoint& place : places) {
+    top = std::min(top, place.y);
+    bottom = std::max(bottom, place.y);
+  }
+  EXPECT_GT(bottom - top, 4.5 * (visited(line_chart(in_page({{0.0, -0.1}, {5.0, 0.1}})), 0)[0].y -
+                                 visited(line_chart(in_page({{0.0, -0.1}, {5.0, 0.1}})), 0)[1].y));
+}
+
+TEST(LineChart, ScattersDotsAndCrosses) {
+  LineChart chart = in_page({{2.0, 0.0}, {4.0, kNan}, {6.0, 0.5}});
+  chart.series[0].look = SeriesLook::dots;
+  EXPECT_EQ(count_of(line_chart(chart), "h0"), 2);
+  chart.series[0].look = SeriesLook::crosses;
+  const std::string svg = line_chart(chart);
+  EXPECT_EQ(count_of(svg, "l12 12m0-12l-12 12"), 2);
+  EXPECT_THAT(svg, Not(HasSubstr("h0")));
 }
 
 TEST(LineChart, SurvivesChartsWithoutValues) {

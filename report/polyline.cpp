@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace spf {
@@ -61,6 +62,41 @@ std::vector<ReplayPoint> thinned(const std::vector<ReplayPoint>& points, double 
 
 std::vector<ReplayTimedPoint> thinned(const std::vector<ReplayTimedPoint>& points, double tolerance) {
   return douglas_peucker(points, tolerance);
+}
+
+std::vector<ReplayPoint> column_extremes(const std::vector<ReplayPoint>& points, double width) {
+  std::vector<ReplayPoint> kept;
+  for (std::size_t first = 0, end = 0; first < points.size(); first = end) {
+    std::size_t low = first, high = first;
+    const double column = std::floor(points[first].x / width);
+    for (; end < points.size() && std::floor(points[end].x / width) == column; ++end) {
+      if (points[end].y < points[low].y) low = end;
+      if (points[end].y > points[high].y) high = end;
+    }
+    for (const std::size_t i : std::set{first, low, high, end - 1}) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+std::string path_data(const std::vector<std::vector<ReplayPoint>>& pieces, std::string_view mark) {
+  std::string text;
+  long last_x = 0, last_y = 0;  // a path's first step counts from the origin
+  const auto add = [&text](long number) {
+    if (number >= 0 && text.back() <= '9') text += ' ';  // it would run into the number before
+    text += std::to_string(number);
+  };
+  for (const std::vector<ReplayPoint>& piece : pieces)
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const long x = std::lround(piece[i].x), y = std::lround(piece[i].y);
+      if (i == 0 || !mark.empty()) text += 'm';
+      if (i == 1 && mark.empty()) text += 'l';
+      add(x - last_x);
+      add(y - last_y);
+      text += mark;
+      last_x = x;
+      last_y = y;
+    }
+  return text;
 }
 
 }  // namespace spf

@@ -49,5 +49,22 @@ TEST(Polyline, KeepsTheEndsOfAClosedLineAndShortLines) {
   EXPECT_EQ(thinned(std::vector<ReplayPoint>{{1.0, 1.0}}, 0.01).size(), 1U);
 }
 
+TEST(Polyline, KeepsTheExtremesOfEveryColumn) {
+  const std::vector<ReplayPoint> points{{0.0, 0.0}, {0.2, 5.0}, {0.4, 1.0},  {0.6, -3.0},
+                                        {0.9, 0.0}, {1.0, 2.0}, {2.5, -1.0}, {2.6, -1.0}};
+  const std::vector<ReplayPoint> kept = column_extremes(points, 1.0);
+  std::vector<double> xs;
+  for (const ReplayPoint& p : kept) xs.push_back(p.x);
+  EXPECT_EQ(xs, (std::vector<double>{0.0, 0.2, 0.6, 0.9, 1.0, 2.5, 2.6}));
+  EXPECT_TRUE(column_extremes({}, 1.0).empty());
+}
+
+TEST(Polyline, WritesPathsAsWholeStepsFromPlaceToPlace) {
+  EXPECT_EQ(path_data({{{10.4, 20.0}, {12.0, 17.0}, {12.0, 18.6}}, {}, {{5.0, 1.0}}}, ""),
+            "m10 20l2-3 0 2m-7-18");
+  EXPECT_EQ(path_data({{{10.0, 20.0}, {8.0, 21.0}}}, "h0"), "m10 20h0m-2 1h0");
+  EXPECT_EQ(path_data({{}}, ""), "");
+}
+
 }  // namespace
 }  // namespace spf

@@ -5,6 +5,7 @@
 #include "report/html_text.hpp"
 #include "report/palette.hpp"
 #include "report/replay_assets.hpp"
+#include "report/replay_charts.hpp"
 #include "report/replay_json.hpp"
 
 namespace spf {
@@ -27,6 +28,7 @@ std::string render_replay(const ReplayData& data) {
   std::string_view rest = kReplayHtml;
   append_at_mark(page, rest, "@TITLE@", escape_html(data.title));
   append_at_mark(page, rest, "@STYLE@", palette_css() + std::string{kReplayStyle});
+  append_at_mark(page, rest, "@CHARTS@", replay_charts(data));
   append_at_mark(page, rest, "@DATA@", replay_json(data));
   append_at_mark(page, rest, "@SCRIPT@", kReplayScript);
   return page.append(rest);

@@ -47,7 +47,7 @@ await check("charts are drawn inside their boxes", desktop, async (page) => {
   assert.ok(await page.locator(".charts svg").count() >= 6);
   const outside = await page.evaluate(() => [...document.querySelectorAll(".charts svg")].flatMap((svg) => {
     const box = svg.getBoundingClientRect();
-    return [...svg.querySelectorAll("circle, rect, line, polyline, polygon")].filter((mark) => {
+    return [...svg.querySelectorAll("circle, rect, line, path, polygon")].filter((mark) => {
       const at = mark.getBoundingClientRect();
       return at.left < box.left - 1 || at.right > box.right + 1 || at.top < box.top - 1 || at.bottom > box.bottom + 1;
     }).map((mark) => mark.outerHTML);

@@ -6,8 +6,7 @@ let colors = {};
 function readColors() {
   const style = getComputedStyle(document.documentElement);
   const names = ["page", "panel", "raised", "line", "grid", "control", "text", "muted", "accent", "on-accent", "good", "bad",
-    "caution", "obstacle", "wall", "perceived", "robot-0", "robot-1", "robot-2", "robot-3", "robot-4",
-    "series-0", "series-1", "series-2", "limit"];
+    "caution", "obstacle", "wall", "perceived", "robot-0", "robot-1", "robot-2", "robot-3", "robot-4"];
   colors = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }
 

@@ -116,4 +116,7 @@ slider.addEventListener("input", () => {
   pause();
   setTime(Number(slider.value) * run.interval);
 });
-scrubOn(timelineCanvas, (px) => ((px - EDGE) / Math.max(1, timelineCanvas.getBoundingClientRect().width - 2 * EDGE)) * run.duration);
+scrubOn(timelineCanvas, () => {
+  const { left, width } = timelineCanvas.getBoundingClientRect();
+  return { left: left + EDGE, width: width - 2 * EDGE };
+});

@@ -165,7 +165,7 @@ readAddress();
 listEvents();
 readColors();
 painters.push(paintControls, paintScene, paintTimeline, paintSlider, paintNow, paintDetails, paintCandidates, paintEvents,
-  ...charts.map((chart) => () => chart.paint()), paintAddress);
+  paintCharts, paintAddress);
 const [boundsLeft, boundsBottom, boundsRight, boundsTop] = run.bounds;
 view.x = (boundsLeft + boundsRight) / 2;
 view.y = (boundsBottom + boundsTop) / 2;

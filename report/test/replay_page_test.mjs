@@ -59,10 +59,49 @@ await check("shows the run's words as words", desktop, "", async (page) => {
   assert.match(await page.textContent("#events"), /<\/script><script>document\.title='broken'<\/script>/);
   assert.match(await page.textContent("#outcome"), /collision/);
   assert.equal(await page.locator("#summary tr").count(), 6);
-  for (const id of ["scene", "timeline", "chart-wheels", "chart-clearance", "chart-computing"]) {
+  for (const id of ["scene", "timeline"]) {
     await painted(page);
     assert.ok(await inked(page, id) > 500, `${id} is empty`);
   }
+});
+
+await check("charts stand in their boxes and look like their legend", desktop, "", async (page) => {
+  await painted(page);
+  for (const [name, series] of [["wheels", 3], ["clearance", 3], ["computing", 2]]) {
+    const looks = await page.evaluate((id) => {
+      const box = document.getElementById(`chart-${id}`).getBoundingClientRect();
+      const paths = [...document.querySelectorAll(`#chart-${id} path`)];
+      const inside = (at) => at.width > 50 && at.left >= box.left && at.right <= box.right && at.top >= box.top && at.bottom <= box.bottom;
+      return { inside: paths.every((path) => inside(path.getBoundingClientRect())), lines: paths.map((path) => getComputedStyle(path).stroke),
+        legend: [...document.querySelectorAll(`#legend-${id} i`)].map((mark) => getComputedStyle(mark).borderTopColor),
+        values: [...document.querySelectorAll(`#legend-${id} b`)].map((value) => value.textContent) };
+    }, name);
+    assert.ok(looks.inside, `${name} sticks out`);
+    assert.equal(looks.lines.length, series);
+    assert.deepEqual(looks.lines, looks.legend);
+    for (const value of looks.values) assert.match(value, /^\u2212?[0-9.]+ (m\/s|m|\u00b5s|ms)/);
+  }
+});
+
+await check("the cursor stands where a chart is pressed and follows the drag", desktop, "", async (page) => {
+  await page.locator("#chart-clearance").scrollIntoViewIfNeeded();
+  const area = await page.locator("#chart-clearance .area").boundingBox();
+  const cursorAt = async (x) => {
+    await painted(page);
+    for (const name of ["wheels", "clearance", "computing"]) {
+      const all = await page.locator(`#chart-${name} .area`).boundingBox();
+      const cursor = await page.locator(`#chart-${name} .cursor`).boundingBox();
+      assert.ok(Math.abs((cursor.x + cursor.width / 2 - all.x) / all.width - (x - area.x) / area.width) < 0.01, name);
+    }
+  };
+  await page.mouse.move(area.x + area.width / 4, area.y + 40);
+  await page.mouse.down();
+  await clockIs(page, 6);
+  await cursorAt(area.x + area.width / 4);
+  await page.mouse.move(area.x + area.width / 2, area.y + 90, { steps: 3 });
+  await clockIs(page, 12);
+  await page.mouse.up();
+  await cursorAt(area.x + area.width / 2);
 });
 
 await check("plays with the space key and stops", desktop, "", async (page) => {
@@ -126,12 +165,14 @@ await check("choosing a robot shows its candidates and its reason", desktop, "#t
   await page.uncheck("#layer-candidates");
   await painted(page);
   assert.notEqual(await picture(page, "scene"), withCandidates);
-  const wheels = await picture(page, "chart-wheels");
+  const wheels = await page.innerHTML("#chart-wheels");
+  assert.match(wheels, /of robot 2/);
   await page.focus("#scene");
   await page.keyboard.press("3");
   await page.waitForFunction(() => document.getElementById("robot").value === "3");
   await painted(page);
-  assert.notEqual(await picture(page, "chart-wheels"), wheels);
+  assert.match(await page.innerHTML("#chart-wheels"), /of robot 3/);
+  assert.notEqual(await page.innerHTML("#chart-wheels"), wheels.replace("of robot 2", "of robot 3"));
 });
 
 await check("a click on a robot chooses it, a drag moves the scene", desktop, "?robot=3", async (page) => {
@@ -187,9 +228,12 @@ await check("follows the system's colours and the button overrides them", { ...d
   await painted(page);
   await page.screenshot({ path: path.join(folder, "dark.png"), fullPage: true });
   const scene = await picture(page, "scene");
+  const line = () => page.evaluate(() => getComputedStyle(document.querySelector("#chart-wheels path")).stroke);
+  const darkLine = await line();
   await page.click("#theme");
   await painted(page);
   assert.notEqual(await background(), dark);
+  assert.notEqual(await line(), darkLine);
   assert.notEqual(await picture(page, "scene"), scene);
   await page.screenshot({ path: path.join(folder, "light.png"), fullPage: true });
 });
@@ -205,7 +249,7 @@ for (const width of [320, 390, 768, 1024]) {
 await check("redraws at once when the window changes size", desktop, "#t=8.5", async (page) => {
   await page.setViewportSize({ width: 800, height: 700 });
   await painted(page);
-  for (const id of ["scene", "timeline", "chart-wheels"]) {
+  for (const id of ["scene", "timeline"]) {
     assert.ok(await inked(page, id) > 500, `${id} is empty`);
     const sizes = await page.evaluate((name) => [document.getElementById(name).width, document.getElementById(name).clientWidth], id);
     assert.ok(Math.abs(sizes[0] - sizes[1]) <= 1, `${id} is ${sizes}`);
@@ -213,7 +257,7 @@ await check("redraws at once when the window changes size", desktop, "#t=8.5", a
 });
 
 await check("every control has a name and can be reached by Tab", desktop, "", async (page) => {
-  const nameless = await page.evaluate(() => [...document.querySelectorAll("button, select, input, canvas:not([aria-hidden])")].filter((element) =>
+  const nameless = await page.evaluate(() => [...document.querySelectorAll("button, select, input, canvas:not([aria-hidden]), svg")].filter((element) =>
     !(element.getAttribute("aria-label") || element.textContent.trim() || element.labels?.[0]?.textContent.trim())).map((element) => element.id));
   assert.deepEqual(nameless, []);
   const reached = new Set();
