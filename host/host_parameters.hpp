@@ -34,6 +34,7 @@ struct HostParameters {
   bool relies_on_scan = true;               ///< stands without fresh scans
   bool relies_on_obstacles = true;          ///< stands without fresh reports of moving obstacles
   NoReturn no_return = NoReturn::infinite;  ///< how the scanner says that nothing is there
+  double least_plan_interval = 0.02;        ///< [s] between two plans that observations bring forward
   double plan_silence = 0.5;                ///< [s] without a word of the planner until the tracker brakes
   double command_silence = 0.5;             ///< [s] without a word of what the wheels are told: they stand
   double largest_plan_error = 0.6;  ///< [m] farther from its plan the tracker stands and waits for a new one
@@ -62,6 +63,9 @@ struct HostParameters {
     visit("no_return", self.no_return,
           "readings of the scanner that mean \"nothing there\" beside infinite ones and those beyond its "
           "range");
+    visit("least_plan_interval", self.least_plan_interval, "s", Range{0.005, 10.0},
+          "an observation is planned with at once, but not within this time of the plan with the last one; "
+          "with agent.team.plan_period or more plans keep to that period");
     visit("plan_silence", self.plan_silence, "s", Range{0.05, 10.0},
           "without a word of the planner for this long the tracker brakes");
     visit("command_silence", self.command_silence, "s", Range{0.05, 10.0},

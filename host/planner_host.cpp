@@ -94,6 +94,8 @@ ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, doubl
   }
   if (observation.scan && from && !host_.trusts_peers) doubt_peers(observation, *from);
   agent_->observe(observation, from, now);
+  const bool tells = sensed.has_detections || (observation.scan && from);
+  if (tells) agent_->plan_soon(now, host_.least_plan_interval);
   return verdict;
 }
 
@@ -250,7 +252,7 @@ const PlannerOutput& PlannerHost::step(double now, const Localiser* localiser) {
   const StopCause cause = stop_cause(now, localiser);
   const bool at_once = (cause == StopCause::none) != (stop_cause_ == StopCause::none);
   stop_cause_ = cause;
-  if (at_once || agent_->plan_due(now)) plan(now, localiser);
+  if (at_once || plan_due(now)) plan(now, localiser);
   return output_;
 }
 

@@ -114,7 +114,10 @@ class PlannerHost {
   /// Likewise, of a robot that is where its plan says: it starts afresh `now` where it was at `then` [s].
   void restart_where_planned(double then, double now);
 
-  /// Call at the rate of the poses; plans when one is due, or at once when something is missing.
+  /// A plan is due at agent.team.plan_period, or for an observation that has come (least_plan_interval).
+  [[nodiscard]] bool plan_due(double now) const { return agent_ && agent_->plan_due(now); }
+  /// Call at the rate of the poses, and where a plan is due; plans then, or at once when something is
+  /// missing.
   const PlannerOutput& step(double now, const Localiser* localiser);
 
   [[nodiscard]] PlannerStatus status() const;

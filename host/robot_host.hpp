@@ -48,7 +48,8 @@ class RobotHost {
     localiser_.applied(std::min(time, clock_.now()), wheel_speeds);
   }
 
-  /// Plans and controls where due. Call it at the rate of the poses or faster.
+  /// Plans and controls where due. Call it at the rate of the poses or faster; a call right after an
+  /// observation plans with it sooner.
   RobotOutput step(double now);
 
   // Its halves, for hosts that time them: first plan(), then control() where it is due.

@@ -33,6 +33,7 @@ class PlannerProcess {
   /// refused: not of the present, or none that these motors could run at.
   bool add_command(double time, const Eigen::Vector3d& wheel_speeds, double now,
                    GuardAction guard = GuardAction::none);
+  [[nodiscard]] bool plan_due(double now) { return planner_.plan_due(tell_time(now)); }
   const PlannerOutput& step(double now) { return planner_.step(tell_time(now), &localiser_); }
 
   [[nodiscard]] PlannerHost& planner() { return planner_; }

@@ -119,7 +119,8 @@ host::HostParameters host_parameters_for(const Scenario& scenario, const AgentPa
   // A scenario may let robots fall far behind their plans, and must not be stopped before.
   if (agent.team.reanchor_distance > host.largest_plan_error)
     host.largest_plan_error = 2.0 * agent.team.reanchor_distance;
-  // Robots of a trial think when a pose arrives.
+  // Robots of a trial plan by their period alone, and think when a pose arrives.
+  host.least_plan_interval = agent.team.plan_period;
   const double tick = 1.0 / noise.rate;
   const auto bear = [](double& silence, double period) { silence = std::max(silence, kPeriods * period); };
   bear(host.plan_silence, std::max(agent.team.plan_period, tick));

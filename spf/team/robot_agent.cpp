@@ -10,7 +10,7 @@
 #include "spf/team/beliefs.hpp"
 #include "spf/team/commitment.hpp"
 #include "spf/team/guide_policy.hpp"
-#include "spf/team/schedule.hpp"
+#include "spf/team/plan_schedule.hpp"
 
 namespace spf {
 namespace {
@@ -48,7 +48,7 @@ struct RobotAgent::Implementation {
   bool keep_candidates = false;
   bool too_fast = false;  // the plan under way was made for a higher speed
   PlanResult result;
-  double next_plan_time;  // [s]
+  PlanSchedule schedule;
 };
 
 RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& agent_parameters,
@@ -60,7 +60,7 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       guide{parameters, planner->approaches_cut_off_goal(), time},
       commitment{parameters, start, time},
       announcement{robot_id, parameters, time},
-      next_plan_time{time} {
+      schedule{parameters.team.plan_period, time} {
   result.trajectory = commitment.trajectory();
 }
 
@@ -79,7 +79,7 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
                                                                   const std::optional<StateEstimate>& state,
                                                                   StopCause stop,
                                                                   const std::optional<Hold>& hold) {
-  next_plan_time = next_due(next_plan_time, parameters.team.plan_period, now);
+  schedule.planned(now);
   // 1. What is believed now.
   beliefs.refresh(now);
   // 2. A plan, unless there is a cause to stop that no plan can mend.
@@ -91,7 +91,7 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
   // 3. Say how it stands, to the host and to the peers.
   announcement.update(now,
                       {commitment.trajectory(), commitment.braking(), goal, stop, standing_cause(now, hold)});
-  return announcement.message(now, next_plan_time, commitment.trajectory(), position_sigma(state));
+  return announcement.message(now, schedule.next(), commitment.trajectory(), position_sigma(state));
 }
 
 /// `held_at`: where a robot is that does not move as it is told, nor will brake as it is told.
@@ -173,7 +173,10 @@ void RobotAgent::observe(const Observation& observation, const std::optional<Pos
   implementation_->beliefs.observe(observation, pose_world, now);
 }
 bool RobotAgent::plan_due(double now) const {
-  return is_due(implementation_->next_plan_time, now);
+  return implementation_->schedule.due(now);
+}
+void RobotAgent::plan_soon(double now, double least_interval) {
+  implementation_->schedule.bring_forward(now, least_interval);
 }
 std::optional<TrajectoryMessage> RobotAgent::plan(double now, const std::optional<StateEstimate>& state,
                                                   StopCause stop, const std::optional<Hold>& hold) {

@@ -54,7 +54,12 @@ class RobotAgent {
   /// the present (`timeliness`, spf/team/schedule.hpp).
   void observe(const Observation& observation, const std::optional<Pose2>& pose_world, double now);
 
+  /// At least every plan_period, and a little later after a plan that plan_soon() has brought forward.
   [[nodiscard]] bool plan_due(double now) const;
+  /// What was observed by now is not to wait for the period: a plan is due at once, but not within
+  /// `least_interval` [s] of the last one of this kind. With an interval of plan_period or more the period
+  /// alone counts.
+  void plan_soon(double now, double least_interval);
   /// Plans and commits, or brakes where there is a cause to stop that no plan can mend; returns the message
   /// to broadcast when there is one. `state` is where the robot is now; without it the robot is exactly where
   /// its trajectory says. A robot that is held plans from where it is.

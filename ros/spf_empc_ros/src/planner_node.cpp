@@ -119,6 +119,7 @@ void PlannerNode::on_observation(const spf_empc_msgs::Observation::ConstPtr& obs
   const spf::host::ObservationVerdict verdict = host_.add_observation(*sensed, now());
   if (verdict != spf::host::ObservationVerdict::accepted)
     refuse("observation", to_string(verdict), verdict == spf::host::ObservationVerdict::late);
+  if (host_.plan_due(now())) step();  // rather than when the timer comes next
 }
 
 /// What is wrong with a peer stands in the diagnostics under its number.
