@@ -241,7 +241,7 @@ StopCause PlannerHost::stop_cause(double now, const Localiser* localiser) const 
 }
 
 const PlannerOutput& PlannerHost::step(double now, const Localiser* localiser) {
-  output_.planned = false;
+  output_.planned = output_.asked_planner = false;
   output_.broadcast.reset();
   if (!agent_ && localiser != nullptr) start_when_ready(now, *localiser);
   if (!agent_) return output_;
@@ -292,8 +292,9 @@ void PlannerHost::plan(double now, const Localiser* localiser) {
   std::optional<StateEstimate> state;
   if (localiser != nullptr) state = localiser->estimate(now);
   std::optional<TrajectoryMessage> told = agent_->plan(now, state, stop_cause_, hold(localiser));
-  ++counts_.plans;
   output_.planned = true;
+  output_.asked_planner = agent_->stop_cause() == StopCause::none;
+  if (output_.asked_planner) ++counts_.plans;
   if (told) {
     sequence_.of_agent = told->sequence;
     told->sequence += sequence_.before;
@@ -303,7 +304,7 @@ void PlannerHost::plan(double now, const Localiser* localiser) {
   TrajectoryMessage& plan = output_.plan;
   plan.robot_id = robot_id_;
   plan.priority = agent_parameters_.team.priority;
-  plan.sequence = counts_.plans;
+  ++plan.sequence;
   plan.sent_time = now;
   plan.expiry_time = now + agent_parameters_.team.message_lifetime;
   plan.radius = agent_parameters_.robot.radius;

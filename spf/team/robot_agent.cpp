@@ -47,7 +47,8 @@ struct RobotAgent::Implementation {
   std::optional<double> goal_heading;   // [rad]
   bool keep_candidates = false;
   bool too_fast = false;  // the plan under way was made for a higher speed
-  PlanResult result;
+  PlanResult result;      // of the planner's last call
+  StopCause stop_cause = StopCause::none;
   double next_plan_time;  // [s]
 };
 
@@ -84,6 +85,7 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
   beliefs.refresh(now);
   // 2. A plan, unless there is a cause to stop that no plan can mend.
   if (stop == StopCause::none && !goal) stop = StopCause::no_goal;
+  stop_cause = stop;
   if (stop == StopCause::none)
     make_plan(now, state, hold);
   else
@@ -96,12 +98,8 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
 
 /// `held_at`: where a robot is that does not move as it is told, nor will brake as it is told.
 void RobotAgent::Implementation::brake(double now, const std::optional<StateEstimate>& held_at) {
-  bool anew = commitment.brake(now);
-  if (held_at) anew = commitment.stand_where(*held_at, now) || anew;
-  if (!anew) return;
-  result.clear();
-  result.outcome = PlanOutcome::unsafe;
-  result.trajectory = commitment.trajectory();
+  commitment.brake(now);
+  if (held_at) commitment.stand_where(*held_at, now);
 }
 
 void RobotAgent::Implementation::make_plan(double now, const std::optional<StateEstimate>& state,
@@ -188,6 +186,9 @@ const AgentParameters& RobotAgent::parameters() const {
 }
 const PlanResult& RobotAgent::last_plan() const {
   return implementation_->result;
+}
+StopCause RobotAgent::stop_cause() const {
+  return implementation_->stop_cause;
 }
 const Trajectory& RobotAgent::committed() const {
   return implementation_->commitment.trajectory();

@@ -64,7 +64,10 @@ class RobotAgent {
 
   [[nodiscard]] int robot_id() const;
   [[nodiscard]] const AgentParameters& parameters() const;
+  /// What the planner returned when it was last asked.
   [[nodiscard]] const PlanResult& last_plan() const;
+  /// Why the last call of plan() did not ask the planner; `none` when it did.
+  [[nodiscard]] StopCause stop_cause() const;
   /// The trajectory under way (never empty: standing at the start before the first plan).
   [[nodiscard]] const Trajectory& committed() const;
   /// As of the last plan.
