@@ -40,10 +40,8 @@ class StraightAhead final : public spf::Planner {
     result.action = spf::PlanAction::follow;
     // 3. The clearance check decides whether that is a good plan; if not, the robot stops.
     judge_.judge(request, result.trajectory.end_time() + kLookAhead, result);
-    if (result.outcome == spf::PlanOutcome::unsafe) {
-      result.risk = 1.0;
+    if (result.outcome == spf::PlanOutcome::unsafe)
       spf::stand_instead(request, robot_, spf::PlanOutcome::unsafe, result);
-    }
   }
 
  private:

@@ -101,10 +101,8 @@ void ClearanceModel::prepare(const WorldSnapshot& world, double time, PeerSelect
   discs_.clear();
   regions_.clear();
   if (world.peers != nullptr) {
-    for (const Peer& peer : *world.peers) {
-      const bool stopped = peer.state != PeerState::moving || peer.expired;
-      if (selection == PeerSelection::all || stopped || goes_first(peer.rank(), world.rank())) add_peer(peer);
-    }
+    for (const Peer& peer : *world.peers)
+      if (selection == PeerSelection::all || !yields(peer, world)) add_peer(peer);
   }
   if (world.tracks != nullptr && planner_.dynamic_model != DynamicModel::none)
     for (const ObstacleTrack& track : *world.tracks) add_track(track, time);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "spf/planning/contact_risk.hpp"
 #include "spf/robot/omni_dynamics.hpp"
 #include "spf/team/announcement.hpp"
 #include "spf/team/beliefs.hpp"
@@ -117,6 +118,7 @@ void RobotAgent::Implementation::make_plan(double now, const std::optional<State
   if (std::exchange(too_fast, false)) request.committed = nullptr;  // there is none to keep
   request.position_sigma = position_sigma(state);
   planner->plan(request, result);
+  set_risk(request, parameters.robot.radius, result);
   commitment.follow(request, result);
 }
 

@@ -499,6 +499,23 @@ TEST(RobotAgent, BuildsThePlannerItIsGivenAndNoOther) {
   EXPECT_EQ(host.agent.last_plan().outcome, PlanOutcome::unsafe);
 }
 
+// Nothing near it, and then somebody upon it: every method means the same.
+TEST(RobotAgent, RiskIsTheSameForEveryMethod) {
+  const MethodTable methods;
+  for (const Method& method : methods.all()) {
+    SCOPED_TRACE(method.name);
+    IdealHost host{with_method(AgentParameters{}, method), empty_map(), {-3.0, 0.0}};
+    host.agent.set_goal({6.0, 0.0});
+    host.run(0.5);
+    EXPECT_EQ(host.agent.last_plan().risk, 0.0);
+    const Eigen::Vector2d beside = host.place + Eigen::Vector2d{0.3, 0.4};
+    host.movers = {{5, 0.4, [beside](double) { return beside; }}};
+    host.run(0.2);
+    EXPECT_GT(host.agent.last_plan().risk, 0.99);
+    EXPECT_LE(host.agent.last_plan().risk, 1.0);
+  }
+}
+
 TEST(RobotAgent, RefusesWhatIsOutOfRange) {
   AgentParameters parameters;
   parameters.team.stale_time = std::numeric_limits<double>::quiet_NaN();

@@ -212,7 +212,7 @@ bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kin
     last_report_ = clearance_.check(trajectory, {request.time, trajectory.end_time(), until, 1.0, &brake_});
     const LimitReport limits = check_limits(trajectory, robot_, kinematics_);
     if (last_report_.clear() && within_limits(limits, request.head)) {
-      keep_best(request, run, kind, trajectory, until, result);
+      keep_best(request, run, kind, trajectory, result);
       return true;
     }
     if (failed_checks++ >= kUnsafeRetries || !answer(request)) return true;
@@ -277,16 +277,14 @@ bool FieldPlanner::within_limits(const LimitReport& limits, const FlatState& hea
 }
 
 void FieldPlanner::keep_best(const PlanRequest& request, const OptimizerResult& run, Candidate::Kind kind,
-                             const Trajectory& trajectory, double until, PlanResult& result) {
+                             const Trajectory& trajectory, PlanResult& result) {
   const double cost = run.cost * side_discount(request.time);
-  if (request.keep_candidates)
-    result.candidates.push_back({kind, cost, risk_of(trajectory, until), false, trajectory});
+  if (request.keep_candidates) result.candidates.push_back({kind, cost, 0.0, false, trajectory});
   if (best_.valid && best_.cost <= cost) return;
   best_.valid = true;
   best_.cost = cost;
   best_.trajectory = trajectory;
   best_.sides = sides_;
-  best_.moving_until = until;
   best_.candidate = static_cast<int>(result.candidates.size()) - 1;
 }
 
@@ -301,18 +299,6 @@ double FieldPlanner::side_discount(double time) const {
     remembered = true;
   }
   return remembered ? 1.0 - kSideBonus : 1.0;
-}
-
-/// Largest risk of any field along the part that takes moving obstacles into account.
-double FieldPlanner::risk_of(const Trajectory& trajectory, double until) const {
-  constexpr double kStep = 0.1;  // [s]
-  double largest = 0.0;
-  for (double time = trajectory.start_time(); time <= until; time += kStep) {
-    const Eigen::Vector2d position = trajectory.position(time);
-    for (const DangerRegion& region : clearance_.regions())
-      largest = std::max(largest, region.field.risk(position));
-  }
-  return largest;
 }
 
 void FieldPlanner::add_heading(const PlanRequest& request, Trajectory& trajectory) const {
@@ -332,7 +318,6 @@ void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, Pla
     result.action = PlanAction::follow;
     result.trajectory = best_.trajectory;
     add_heading(request, result.trajectory);
-    result.risk = risk_of(best_.trajectory, best_.moving_until);
     for (std::size_t r = 0; r < best_.sides.size(); ++r) {
       if (!best_.sides[r].decided) continue;
       const int id = clearance_.regions()[r].id;
@@ -344,11 +329,10 @@ void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, Pla
     result.outcome = failure;
     result.action = PlanAction::brake;
     result.trajectory = brake_;
-    result.risk = risk_of(result.trajectory, result.trajectory.end_time());
     if (last_report_.kind == ConflictKind::peer) result.blocking_peer = last_report_.id;
     if (last_report_.kind == ConflictKind::obstacle) result.blocking_track = last_report_.id;
     if (request.keep_candidates)
-      result.candidates.push_back({Candidate::Kind::brake, 0.0, result.risk, true, result.trajectory});
+      result.candidates.push_back({Candidate::Kind::brake, 0.0, 0.0, true, result.trajectory});
   }
   result.stats.side_changes = guidance_.side_changes(request.time);
 }

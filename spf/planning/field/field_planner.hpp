@@ -42,8 +42,7 @@ class FieldPlanner final : public Planner {
     double cost = 0.0;  // with the side bonus
     Trajectory trajectory;
     std::vector<SideChoice> sides;
-    double moving_until = 0.0;  // [s] absolute
-    int candidate = -1;         // index in the result, when candidates are kept
+    int candidate = -1;  // index in the result, when candidates are kept
   };
 
   void prepare(const PlanRequest& request);
@@ -58,9 +57,8 @@ class FieldPlanner final : public Planner {
   bool answer(const PlanRequest& request);
   [[nodiscard]] bool within_limits(const LimitReport& limits, const FlatState& head) const;
   void keep_best(const PlanRequest& request, const OptimizerResult& run, Candidate::Kind kind,
-                 const Trajectory& trajectory, double until, PlanResult& result);
+                 const Trajectory& trajectory, PlanResult& result);
   [[nodiscard]] double side_discount(double time) const;
-  [[nodiscard]] double risk_of(const Trajectory& trajectory, double until) const;
   void add_heading(const PlanRequest& request, Trajectory& trajectory) const;
   /// Fills the result with the best accepted plan, or with braking and the outcome `failure`.
   void conclude(const PlanRequest& request, PlanOutcome failure, PlanResult& result);

@@ -203,7 +203,6 @@ TEST(FieldPlanner, TriesBothSidesOfAMovingDiscAndKeepsOutOfItsField) {
     const ProbabilityField field{scene.tracks[0].state, 0.3, FieldParameters{}};
     for (double ahead = 0.0; ahead < result.trajectory.duration(); ahead += 0.01)
       ASSERT_GE(field.mahalanobis(result.trajectory.position(10.0 + ahead)), field.threshold() - 1e-3);
-    EXPECT_LE(result.risk, std::exp(-0.5 * field.threshold() * field.threshold()) + 1e-3);
   }
 }
 
