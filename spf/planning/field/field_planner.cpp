@@ -77,7 +77,7 @@ FieldPlanner::FieldPlanner(const PlannerParameters& planner, const RobotParamete
       search_{detour_search()},
       seeds_{planner, robot_},
       optimizer_{planner, robot_} {
-  for (std::vector<GuidePair>* pairs : {&seed_pairs_, &static_pairs_, &dynamic_pairs_})
+  for (std::vector<GuidePair>* pairs : {&seed_pairs_, &static_pairs_, &field_pairs_})
     pairs->reserve(kPairCapacity);
   conflicts_.reserve(64);
   sides_.reserve(64);
@@ -152,8 +152,7 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   problem_.last_moving_node = last_moving_node(nodes, kCheckedFraction, target.is_goal, robot_);
   problem_.discs = &clearance_.discs();
   problem_.static_pairs = &static_pairs_;
-  (planner_.dynamic_model == DynamicModel::frozen ? problem_.frozen_pairs : problem_.field_pairs) =
-      &dynamic_pairs_;
+  problem_.field_pairs = &field_pairs_;
 
   // Static obstacles that the seed runs through, and obstacles whose field it enters.
   seed_pairs_.clear();
@@ -165,9 +164,8 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   }
   guidance_.find_conflicts(clearance_.regions(), nodes, problem_.last_moving_node, request.head, conflicts_);
 
-  // Every combination of sides (Fig. 4), the first obstacles first. ES2 uses one side only.
-  const int sides =
-      planner_.dynamic_model == DynamicModel::probability_field ? static_cast<int>(conflicts_.size()) : 0;
+  // Every combination of sides (Fig. 4), the first obstacles first.
+  const int sides = static_cast<int>(conflicts_.size());
   int free_sides = 0;
   while (free_sides < sides && (2 << free_sides) <= kMaxSideCombinations) ++free_sides;
   for (int mask = 0; mask < (1 << free_sides); ++mask) {
@@ -188,12 +186,12 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
 
 bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kind, PlanResult& result) {
   static_pairs_ = seed_pairs_;
-  dynamic_pairs_.clear();
+  field_pairs_.clear();
   problem_.peer_factor = problem_.dynamic_factor = problem_.static_factor = problem_.limits_factor = 1.0;
   current_ = seed_;
   optimizer_.set(problem_, current_);
   guidance_.add_pairs(clearance_.regions(), optimizer_.nodes(), problem_.last_moving_node, request.head,
-                      sides_, dynamic_pairs_);
+                      sides_, field_pairs_);
   int rebounds = 0;
   int failed_checks = 0;
   while (true) {
@@ -244,7 +242,7 @@ bool FieldPlanner::answer(const PlanRequest& request) {
   constexpr double kHarder = 2.0;
   // The field's guide points are recomputed at the current nodes, on the chosen sides.
   guidance_.add_pairs(clearance_.regions(), optimizer_.nodes(), problem_.last_moving_node, request.head,
-                      sides_, dynamic_pairs_);
+                      sides_, field_pairs_);
   switch (last_report_.kind) {
     case ConflictKind::none:
       problem_.limits_factor *= kHarder;

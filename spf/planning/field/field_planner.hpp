@@ -78,11 +78,11 @@ class FieldPlanner final : public Planner {
   TrajectorySeed current_;  // where the next run of a candidate starts
   TrajectoryProblem problem_;
   std::vector<FieldConflict> conflicts_;
-  std::vector<GuidePair> seed_pairs_;     // static pairs of the seed
-  std::vector<GuidePair> static_pairs_;   // of the candidate
-  std::vector<GuidePair> dynamic_pairs_;  // of the candidate
-  std::vector<SideChoice> sides_;         // of the candidate
-  Trajectory brake_;                      // the fallback
+  std::vector<GuidePair> seed_pairs_;    // static pairs of the seed
+  std::vector<GuidePair> static_pairs_;  // of the candidate
+  std::vector<GuidePair> field_pairs_;   // of the candidate
+  std::vector<SideChoice> sides_;        // of the candidate
+  Trajectory brake_;                     // the fallback
   Accepted best_;
   ClearanceReport last_report_;
 };
