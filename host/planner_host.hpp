@@ -150,6 +150,7 @@ class PlannerHost {
   void recover(double now, const Localiser& localiser);
   void tell_goal();
   void let_go(double now);
+  [[nodiscard]] StateEstimate estimate(double now, const Localiser* localiser) const;
   void plan(double now, const Localiser* localiser);
   void doubt_peers(const Observation& observation, const Pose2& pose_world);
   [[nodiscard]] bool well_formed(const TrajectoryMessage& message) const;

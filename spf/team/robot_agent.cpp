@@ -28,12 +28,12 @@ struct RobotAgent::Implementation {
                  const Pose2& start, double time);
 
   void reconfigure(const AgentParameters& changed);
-  std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state, StopCause stop,
+  std::optional<TrajectoryMessage> plan(double now, const StateEstimate& state, StopCause stop,
                                         const std::optional<Hold>& hold);
-  void brake(double now, const std::optional<StateEstimate>& held_at);
-  void make_plan(double now, const std::optional<StateEstimate>& state, const std::optional<Hold>& hold);
+  void brake(double now, const StateEstimate* held_at);
+  void make_plan(double now, const StateEstimate& state, const std::optional<Hold>& hold);
   [[nodiscard]] StandCause standing_cause(double now, const std::optional<Hold>& hold) const;
-  [[nodiscard]] double position_sigma(const std::optional<StateEstimate>& state) const;
+  [[nodiscard]] double position_sigma(const StateEstimate& state) const;
 
   int id;
   AgentParameters parameters;
@@ -77,8 +77,7 @@ void RobotAgent::Implementation::reconfigure(const AgentParameters& changed) {
   announcement.reconfigure(parameters);
 }
 
-std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
-                                                                  const std::optional<StateEstimate>& state,
+std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now, const StateEstimate& state,
                                                                   StopCause stop,
                                                                   const std::optional<Hold>& hold) {
   next_plan_time = next_due(next_plan_time, parameters.team.plan_period, now);
@@ -90,20 +89,20 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
   if (stop == StopCause::none)
     make_plan(now, state, hold);
   else
-    brake(now, stop == StopCause::stuck ? state : std::nullopt);
+    brake(now, stop == StopCause::stuck ? &state : nullptr);
   // 3. Say how it stands, to the host and to the peers.
   announcement.update(now,
                       {commitment.trajectory(), commitment.braking(), goal, stop, standing_cause(now, hold)});
   return announcement.message(now, next_plan_time, commitment.trajectory(), position_sigma(state));
 }
 
-/// `held_at`: where a robot is that does not move as it is told, nor will brake as it is told.
-void RobotAgent::Implementation::brake(double now, const std::optional<StateEstimate>& held_at) {
+/// `held_at`: where a robot is that does not move as it is told, nor will brake as it is told; else null.
+void RobotAgent::Implementation::brake(double now, const StateEstimate* held_at) {
   commitment.brake(now);
-  if (held_at) commitment.stand_where(*held_at, now);
+  if (held_at != nullptr) commitment.stand_where(*held_at, now);
 }
 
-void RobotAgent::Implementation::make_plan(double now, const std::optional<StateEstimate>& state,
+void RobotAgent::Implementation::make_plan(double now, const StateEstimate& state,
                                            const std::optional<Hold>& hold) {
   guide.refresh(now, beliefs.map(), *goal, commitment.trajectory().position(now));
   PlanRequest request;
@@ -131,9 +130,8 @@ StandCause RobotAgent::Implementation::standing_cause(double now, const std::opt
   return {StopCause::planner_failed};
 }
 
-double RobotAgent::Implementation::position_sigma(const std::optional<StateEstimate>& state) const {
-  if (!state) return 0.0;
-  return std::sqrt(state->position_variance + commitment.tracking_variance());
+double RobotAgent::Implementation::position_sigma(const StateEstimate& state) const {
+  return std::sqrt(state.position_variance + commitment.tracking_variance());
 }
 
 RobotAgent::RobotAgent(int robot_id, const AgentParameters& parameters, const OccupancyMap& map,
@@ -175,8 +173,8 @@ void RobotAgent::observe(const Observation& observation, const std::optional<Pos
 bool RobotAgent::plan_due(double now) const {
   return is_due(implementation_->next_plan_time, now);
 }
-std::optional<TrajectoryMessage> RobotAgent::plan(double now, const std::optional<StateEstimate>& state,
-                                                  StopCause stop, const std::optional<Hold>& hold) {
+std::optional<TrajectoryMessage> RobotAgent::plan(double now, const StateEstimate& state, StopCause stop,
+                                                  const std::optional<Hold>& hold) {
   return implementation_->plan(now, state, stop, hold);
 }
 

@@ -56,9 +56,9 @@ class RobotAgent {
 
   [[nodiscard]] bool plan_due(double now) const;
   /// Plans and commits, or brakes where there is a cause to stop that no plan can mend; returns the message
-  /// to broadcast when there is one. `state` is where the robot is now; without it the robot is exactly where
-  /// its trajectory says. A robot that is held plans from where it is.
-  std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state,
+  /// to broadcast when there is one. `state` is where the robot is now; one that is not valid says nothing,
+  /// and the plan goes on from the trajectory under way. A robot that is held plans from where it is.
+  std::optional<TrajectoryMessage> plan(double now, const StateEstimate& state,
                                         StopCause stop = StopCause::none,
                                         const std::optional<Hold>& hold = std::nullopt);
 

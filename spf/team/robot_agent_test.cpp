@@ -428,12 +428,15 @@ TEST_P(RobotAgentMethodTest, GivesTheSameBitsForTheSameInputs) {
   EXPECT_GT((host.place - Eigen::Vector2d{-3.0, 0.0}).norm(), 1.0);
 }
 
-TEST(RobotAgent, MovedAsPlannedItKnowsWhereItIs) {
+TEST(RobotAgent, ExactlyOnItsPlanItIsSureOfIt) {
   RobotAgent agent{1, AgentParameters{}, empty_map(), {{-3.0, 0.0}, 0.0}, 0.0};
   agent.set_goal({3.0, 0.0});
   for (int tick = 1; tick <= 1000; ++tick) {
     if (!agent.plan_due(0.01 * tick)) continue;
-    const std::optional<TrajectoryMessage> told = agent.plan(0.01 * tick, std::nullopt);
+    StateEstimate exact;
+    exact.valid = true;
+    exact.pose_world = {agent.committed().position(0.01 * tick), 0.0};
+    const std::optional<TrajectoryMessage> told = agent.plan(0.01 * tick, exact);
     EXPECT_EQ(told.value_or(TrajectoryMessage{}).position_sigma, 0.0);
   }
   EXPECT_LT((agent.committed().position(10.0) - Eigen::Vector2d{3.0, 0.0}).norm(), 0.05);
