@@ -102,6 +102,9 @@ class Planner {
 
 /// Whether a request can be planned at all: finite numbers, a map and a guide.
 [[nodiscard]] bool usable(const PlanRequest& request);
+/// Why a request cannot be planned, for a method that needs the guide: `invalid_request` when it is not
+/// usable, `no_path` when the guide leads nowhere, since no position near the goal is free. None when it can.
+[[nodiscard]] std::optional<PlanOutcome> refusal(const PlanRequest& request);
 
 /// The result of a method without a plan: a braking trajectory under way goes on, else a new one begins at
 /// the head. If not even the head is finite, the current plan goes on to its end, at rest.

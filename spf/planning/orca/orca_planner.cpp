@@ -181,9 +181,8 @@ OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters
 
 void OrcaPlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.clear();
-  if (!usable(request) || !request.guide->ready()) {
-    const bool no_goal = usable(request);  // no free position near the goal
-    stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
+  if (const std::optional<PlanOutcome> refused = refusal(request)) {
+    stand_instead(request, robot_, *refused, result);
     return;
   }
   // 1. The preferred velocity and the neighbours.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "spf/math/normal_distribution.hpp"
 
@@ -192,9 +193,8 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
 
 void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.clear();
-  if (!usable(request) || !request.guide->ready()) {
-    const bool no_goal = usable(request);  // no free position near the goal
-    stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
+  if (const std::optional<PlanOutcome> refused = refusal(request)) {
+    stand_instead(request, robot_, *refused, result);
     return;
   }
   best_score_ = {};
