@@ -179,7 +179,7 @@ ReplayPlan plan_of(const sim::RecordedPlan& recorded) {
   ReplayPlan plan;
   plan.time = recorded.time;
   plan.points = timed_points(recorded.points);
-  plan.outcome = to_string(recorded.outcome);
+  plan.outcome = recorded.stop == StopCause::none ? to_string(recorded.outcome) : to_string(recorded.stop);
   plan.planning_time = measured(1e-3 * recorded.plan_ms);
   plan.evaluations = recorded.stats.evaluations + recorded.stats.primitives;
   for (const sim::RecordedCandidate& other : recorded.candidates) {

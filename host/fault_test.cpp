@@ -2,6 +2,9 @@
 // docs/faults.md, without ROS.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <memory>
+
 #include "host/bench_test.hpp"
 
 namespace spf::host {
@@ -56,6 +59,50 @@ TEST_P(Faults, StalePose) {
   Bench bench{GetParam()};
   bench.drive();
   expect_brakes_and_recovers(bench, bench.send_poses, kStale - kTick, kStale + kReaction, "stale pose");
+}
+
+/// The default method, which counts how often it is asked.
+class CountedPlanner final : public Planner {
+ public:
+  CountedPlanner(const AgentParameters& agent, std::uint32_t* calls)
+      : planner_{make_space_time_planner(agent)}, calls_{calls} {}
+  void plan(const PlanRequest& request, PlanResult& result) override {
+    ++*calls_;
+    planner_->plan(request, result);
+  }
+
+ private:
+  std::unique_ptr<Planner> planner_;
+  std::uint32_t* calls_;
+};
+
+// While poses are missing the planner is not asked, and what it said last is not counted again.
+TEST_P(Faults, PlansThatWereNotMadeAreNotCounted) {
+  std::uint32_t calls = 0;
+  AgentParameters agent;
+  agent.make_planner = [&](const AgentParameters& parameters) {
+    return std::make_unique<CountedPlanner>(parameters, &calls);
+  };
+  Bench bench{GetParam(), {}, 0, agent};
+  bench.drive();
+  EXPECT_GT(calls, 10u);
+  EXPECT_EQ(bench.planner.counts().plans, calls);
+  bench.send_poses = false;
+  bench.run(kStale + kReaction);
+  ASSERT_EQ(bench.reason(), "stale pose");
+  const std::uint32_t before_gap = calls;
+  const PlanOutcome last = bench.planner.agent()->last_plan().outcome;
+  bench.run(2.0);
+  EXPECT_LT(bench.speed(), kStanding);
+  EXPECT_EQ(calls, before_gap);
+  EXPECT_EQ(bench.planner.counts().plans, calls);
+  EXPECT_EQ(bench.planner.agent()->stop_cause(), StopCause::stale_pose);
+  EXPECT_EQ(bench.planner.agent()->last_plan().outcome, last);
+  bench.send_poses = true;
+  bench.run(2.5);
+  EXPECT_GT(calls, before_gap + 10u);
+  EXPECT_EQ(bench.planner.counts().plans, calls);
+  EXPECT_EQ(bench.planner.agent()->stop_cause(), StopCause::none);
 }
 
 // Odometry goes on, but what places it in the map has died.

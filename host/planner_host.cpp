@@ -11,6 +11,14 @@
 #include "spf/team/schedule.hpp"
 
 namespace spf::host {
+namespace {
+
+/// Of a robot that is moved exactly as it plans.
+Pose2 place_on(const Trajectory& plan, double time) {
+  return {plan.position(time), plan.heading().state(time).heading};
+}
+
+}  // namespace
 
 const char* to_string(ObservationVerdict verdict) {
   switch (verdict) {
@@ -85,13 +93,8 @@ ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, doubl
   if (observation.scan) last_scan_time_ = std::max(last_scan_time_, observation.time);
   if (sensed.has_detections) last_detections_time_ = std::max(last_detections_time_, observation.time);
   if (!agent_) return verdict;
-  std::optional<Pose2> from;
-  if (localiser != nullptr) {
-    from = localiser->pose(observation.time);
-  } else {
-    const Trajectory& plan = agent_->committed();
-    from = Pose2{plan.position(observation.time), plan.heading().state(observation.time).heading};
-  }
+  const std::optional<Pose2> from = localiser != nullptr ? localiser->pose(observation.time)
+                                                         : place_on(agent_->committed(), observation.time);
   if (observation.scan && from && !host_.trusts_peers) doubt_peers(observation, *from);
   agent_->observe(observation, from, now);
   const bool tells = sensed.has_detections || (observation.scan && from);
@@ -208,8 +211,7 @@ void PlannerHost::start(const OccupancyMap& map, const Pose2& pose_world, double
 
 void PlannerHost::restart_where_planned(double then, double now) {
   if (!agent_) return meet_clock_jump();
-  const Trajectory& plan = agent_->committed();
-  const Pose2 here{plan.position(then), plan.heading().state(then).heading};
+  const Pose2 here = place_on(agent_->committed(), then);
   meet_clock_jump();
   vouched_time_ = now;
   make_agent(here, now);
@@ -243,7 +245,7 @@ StopCause PlannerHost::stop_cause(double now, const Localiser* localiser) const 
 }
 
 const PlannerOutput& PlannerHost::step(double now, const Localiser* localiser) {
-  output_.planned = false;
+  output_.planned = output_.asked_planner = false;
   output_.broadcast.reset();
   if (!agent_ && localiser != nullptr) start_when_ready(now, *localiser);
   if (!agent_) return output_;
@@ -289,13 +291,22 @@ void PlannerHost::let_go(double now) {
   agent_->observe(nothing, std::nullopt, now);
 }
 
+/// Where the robot is, for the agent.
+StateEstimate PlannerHost::estimate(double now, const Localiser* localiser) const {
+  if (localiser != nullptr) return localiser->estimate(now);
+  StateEstimate exact;
+  exact.valid = true;
+  exact.pose_world = place_on(agent_->committed(), now);
+  return exact;
+}
+
 void PlannerHost::plan(double now, const Localiser* localiser) {
   let_go(now);
-  std::optional<StateEstimate> state;
-  if (localiser != nullptr) state = localiser->estimate(now);
+  const StateEstimate state = estimate(now, localiser);
   std::optional<TrajectoryMessage> told = agent_->plan(now, state, stop_cause_, hold(localiser));
-  ++counts_.plans;
   output_.planned = true;
+  output_.asked_planner = agent_->stop_cause() == StopCause::none;
+  if (output_.asked_planner) ++counts_.plans;
   if (told) {
     sequence_.of_agent = told->sequence;
     told->sequence += sequence_.before;
@@ -305,11 +316,11 @@ void PlannerHost::plan(double now, const Localiser* localiser) {
   TrajectoryMessage& plan = output_.plan;
   plan.robot_id = robot_id_;
   plan.priority = agent_parameters_.team.priority;
-  plan.sequence = counts_.plans;
+  ++plan.sequence;
   plan.sent_time = now;
   plan.expiry_time = now + agent_parameters_.team.message_lifetime;
   plan.radius = agent_parameters_.robot.radius;
-  plan.position_sigma = state ? std::sqrt(state->position_variance) : 0.0;
+  plan.position_sigma = std::sqrt(state.position_variance);
   plan.state = agent_->status().state;
   plan.trajectory = agent_->committed();
   output_.observed = std::max(last_scan_time_, last_detections_time_);

@@ -45,9 +45,10 @@ struct Goal {
 };
 
 struct PlannerOutput {
-  bool planned = false;                   ///< in this step; only then the rest is new
-  TrajectoryMessage plan;                 ///< for the robot's own tracker, after every plan
-  double observed = 0.0;                  ///< [s] when the newest observation behind it was made
+  bool planned = false;        ///< it was decided what to do in this step; only then the rest is new
+  bool asked_planner = false;  ///< for that: not when there was a cause to stop
+  TrajectoryMessage plan;      ///< for the robot's own tracker, after every plan
+  double observed = 0.0;       ///< [s] when the newest observation behind it was made
   std::optional<HeardMessage> broadcast;  ///< for the peers, when there is something to tell
 };
 
@@ -59,7 +60,7 @@ struct PlannerStatus {
 };
 
 struct PlannerCounts {
-  std::uint32_t plans = 0;
+  std::uint32_t plans = 0;  ///< calls of the planner
   std::uint32_t messages_accepted = 0;
   std::uint32_t messages_malformed = 0;
   std::uint32_t messages_old = 0;
@@ -152,6 +153,7 @@ class PlannerHost {
   void recover(double now, const Localiser& localiser);
   void tell_goal();
   void let_go(double now);
+  [[nodiscard]] StateEstimate estimate(double now, const Localiser* localiser) const;
   void plan(double now, const Localiser* localiser);
   void doubt_peers(const Observation& observation, const Pose2& pose_world);
   [[nodiscard]] bool well_formed(const TrajectoryMessage& message) const;

@@ -13,7 +13,7 @@ class AgentMeter {
  public:
   explicit AgentMeter(std::size_t robots) : robots_(robots) {}
 
-  /// A planning call of a robot ended.
+  /// A call of a robot's planner ended.
   void planned(int robot, const PlanResult& plan);
   /// The robot has had this status for `duration` [s].
   void stood(int robot, const AgentStatus& status, double duration);

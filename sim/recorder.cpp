@@ -119,6 +119,15 @@ void Recorder::planned(double time, const RobotAgent& agent, double plan_ms) {
   recording_->plans.push_back(std::move(plan));
 }
 
+void Recorder::stopped(double time, const RobotAgent& agent) {
+  RecordedPlan plan;
+  plan.time = time;
+  plan.robot = agent.robot_id();
+  plan.stop = agent.stop_cause();
+  plan.points = sampled(agent.committed(), time, kPlanSampling);
+  recording_->plans.push_back(std::move(plan));
+}
+
 void Recorder::contact(const Contact& contact) {
   note_contact(contact, RecordedEvent::Kind::contact);
 }

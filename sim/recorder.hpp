@@ -17,6 +17,7 @@ class Recorder : public TrialListener {
 
   void frame(const TrialFrame& view) override;
   void planned(double time, const RobotAgent& agent, double plan_ms) override;
+  void stopped(double time, const RobotAgent& agent) override;
   void contact(const Contact& contact) override;
   void hit_while_standing(const Contact& contact) override;
   void arrived(double time, int robot, const Eigen::Vector2d& position_world) override;

@@ -61,10 +61,11 @@ struct RecordedCandidate {
   std::vector<RecordedPoint> points;
 };
 
-/// One planning call.
+/// One planning call, or what was done without one.
 struct RecordedPlan {
   double time = 0.0;  ///< [s]
   int robot = 0;
+  StopCause stop = StopCause::none;  ///< the planner was not asked, for this: no outcome, risk, statistics
   PlanOutcome outcome = PlanOutcome::success;
   double risk = 0.0;
   PlanStats stats;

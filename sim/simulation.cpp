@@ -187,6 +187,7 @@ void Simulation::Implementation::plan(std::size_t robot, double started) {
   desk.world_seconds += clock() - started;
   if (!output.planned) return;
   desk.action.planned = true;
+  desk.action.asked_planner = output.asked_planner;
   desk.plan_seconds = std::exchange(desk.world_seconds, 0.0);
   desk.told = output.broadcast;
 }
@@ -204,12 +205,14 @@ void Simulation::Implementation::conclude(std::size_t robot) {
   const RobotAgent& agent = robots[robot].agent();
   const Desk& desk = desks[robot];
   for (TrialListener* listener : listeners) listener->thought(now(), id, desk.input, desk.action);
-  if (desk.action.planned) {
+  if (desk.action.asked_planner) {
     if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * desk.plan_seconds));
     meter.planned(id, agent.last_plan());
-    if (desk.told) radio.send(now(), *desk.told, world.positions()[robot]);
     for (TrialListener* listener : listeners) listener->planned(now(), agent, 1e3 * desk.plan_seconds);
+  } else if (desk.action.planned) {
+    for (TrialListener* listener : listeners) listener->stopped(now(), agent);
   }
+  if (desk.told) radio.send(now(), *desk.told, world.positions()[robot]);
   if (desk.action.controlled) {
     world.command(id, desk.action.wheel_speeds);
     if (options.clock) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -240,6 +241,65 @@ TEST(Simulation, LetsSlowPlannersControllersAndPosesDrive) {
     const TrialResult result = Simulation{scenario, agent}.run();
     EXPECT_EQ(result.outcome, TrialOutcome::success) << slow;
   }
+}
+
+/// Adds up what the planner of the default method returns, apart from whoever else does.
+class Tally final : public Planner {
+ public:
+  struct Sums {
+    int calls = 0;
+    int failed = 0;
+    std::int64_t optimiser_calls = 0;
+    std::int64_t primitives = 0;
+  };
+  Tally(const AgentParameters& agent, Sums* sums) : planner_{make_space_time_planner(agent)}, sums_{sums} {}
+  void plan(const PlanRequest& request, PlanResult& result) override {
+    planner_->plan(request, result);
+    ++sums_->calls;
+    sums_->failed += succeeded(result.outcome) ? 0 : 1;
+    sums_->optimiser_calls += result.stats.optimiser_calls;
+    sums_->primitives += result.stats.primitives;
+  }
+
+ private:
+  std::unique_ptr<Planner> planner_;
+  Sums* sums_;
+};
+
+// What is seen comes so late that the robot has to stop again and again, which is no plan of its planner.
+TEST(Simulation, CountsTheCallsOfThePlannerAlone) {
+  struct Stops : TrialListener {
+    void planned(double /*time*/, const RobotAgent& agent, double /*plan_ms*/) override {
+      ++plans;
+      EXPECT_EQ(agent.stop_cause(), StopCause::none);
+    }
+    void stopped(double /*time*/, const RobotAgent& agent) override {
+      ++stops;
+      EXPECT_EQ(agent.stop_cause(), StopCause::no_obstacles);
+    }
+    int plans = 0;
+    int stops = 0;
+  } listener;
+  Scenario scenario = lone_robot(TrackingMode::full);
+  scenario.simulation.trial.computing_delay = 0.25;
+  scenario.simulation.trial.time_limit = 5.0;
+  Tally::Sums sums;
+  AgentParameters agent;
+  agent.make_planner = [&](const AgentParameters& parameters) {
+    return std::make_unique<Tally>(parameters, &sums);
+  };
+  SimulationOptions options;
+  options.listener = &listener;
+  options.clock = [ticks = 0.0]() mutable { return ticks += 1e-6; };
+  const TrialResult result = Simulation{scenario, agent, options}.run();
+  EXPECT_GT(listener.stops, 10);
+  EXPECT_GT(sums.calls, 10);
+  EXPECT_EQ(listener.plans, sums.calls);
+  EXPECT_EQ(result.plan_ms.size(), static_cast<std::size_t>(sums.calls));
+  EXPECT_EQ(result.robots[0].plans, sums.calls);
+  EXPECT_EQ(result.robots[0].failed_plans, sums.failed);
+  EXPECT_EQ(result.robots[0].optimiser_calls, sums.optimiser_calls);
+  EXPECT_EQ(result.robots[0].primitives, sums.primitives);
 }
 
 // One that never re-anchors is not stopped at the default distance from its plan instead.

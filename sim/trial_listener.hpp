@@ -33,7 +33,8 @@ struct RobotInput {
 
 /// What it did in that tick.
 struct RobotAction {
-  bool planned = false;
+  bool planned = false;        ///< it was decided what to do
+  bool asked_planner = false;  ///< for that: not when there was a cause to stop
   bool controlled = false;
   Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] commanded, when controlled
 };
@@ -47,9 +48,11 @@ class TrialListener {
   virtual void frame(const TrialFrame&) {}
   /// At every pose: what a robot was given, and what it did.
   virtual void thought(double /*time*/, int /*robot*/, const RobotInput&, const RobotAction&) {}
-  /// A robot has planned, which took `plan_ms` [ms] (0 without a clock); the result is the agent's
+  /// A robot has asked its planner, which took `plan_ms` [ms] (0 without a clock); the result is the agent's
   /// last_plan().
   virtual void planned(double /*time*/, const RobotAgent&, double /*plan_ms*/) {}
+  /// A robot was to plan but has to stop, for the agent's stop_cause(): its planner was not asked.
+  virtual void stopped(double /*time*/, const RobotAgent&) {}
   /// Robots touched something, by time.
   virtual void contact(const Contact&) {}
   /// A recorded person, who does not react, walked into a robot that stood still.

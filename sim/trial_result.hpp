@@ -45,7 +45,7 @@ struct RobotResult {
   double path_length = 0.0;          ///< [m] of the true path
   double travel_time_ratio = 0.0;    ///< [1] over the obstacle-free rest-to-rest optimum
   double path_length_ratio = 0.0;    ///< [1] over the straight line
-  int plans = 0;                     ///< planning calls
+  int plans = 0;                     ///< calls of the planner
   int failed_plans = 0;              ///< those whose outcome is not success or goal_reached
   std::int64_t optimiser_calls = 0;  ///< L-BFGS runs (the paper's iterations)
   std::int64_t inner_iterations = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "apps/program.hpp"
 #include "spf/planning/cost_to_go.hpp"
@@ -21,8 +22,8 @@ class StraightAhead final : public spf::Planner {
 
   void plan(const spf::PlanRequest& request, spf::PlanResult& result) override {
     result.clear();
-    if (!spf::usable(request) || !request.guide->ready()) {
-      spf::stand_instead(request, robot_, spf::PlanOutcome::invalid_request, result);
+    if (const std::optional<spf::PlanOutcome> refused = spf::refusal(request)) {
+      spf::stand_instead(request, robot_, *refused, result);
       return;
     }
     // 1. The velocity: along the guide, at a speed from which the robot can stop at the goal.
@@ -40,10 +41,8 @@ class StraightAhead final : public spf::Planner {
     result.action = spf::PlanAction::follow;
     // 3. The clearance check decides whether that is a good plan; if not, the robot stops.
     judge_.judge(request, result.trajectory.end_time() + kLookAhead, result);
-    if (result.outcome == spf::PlanOutcome::unsafe) {
-      result.risk = 1.0;
+    if (result.outcome == spf::PlanOutcome::unsafe)
       spf::stand_instead(request, robot_, spf::PlanOutcome::unsafe, result);
-    }
   }
 
  private:

@@ -101,10 +101,8 @@ void ClearanceModel::prepare(const WorldSnapshot& world, double time, PeerSelect
   discs_.clear();
   regions_.clear();
   if (world.peers != nullptr) {
-    for (const Peer& peer : *world.peers) {
-      const bool stopped = peer.state != PeerState::moving || peer.expired;
-      if (selection == PeerSelection::all || stopped || goes_first(peer.rank(), world.rank())) add_peer(peer);
-    }
+    for (const Peer& peer : *world.peers)
+      if (selection == PeerSelection::all || !yields(peer, world)) add_peer(peer);
   }
   if (world.tracks != nullptr && planner_.dynamic_model != DynamicModel::none)
     for (const ObstacleTrack& track : *world.tracks) add_track(track, time);
@@ -127,25 +125,20 @@ void ClearanceModel::add_peer(const Peer& peer) {
 void ClearanceModel::add_track(const ObstacleTrack& track, double time) {
   ObstacleState now = track.state;
   now.position_world += (time - track.time) * track.state.velocity_world;
-  if (planner_.dynamic_model == DynamicModel::constant_velocity) {
+  if (planner_.dynamic_model != DynamicModel::probability_field) {
     MovingDisc disc;
     disc.id = track.id;
     disc.radius = robot_.radius + now.radius;
-    disc.speed_bound = now.velocity_world.norm();
     disc.time = time;
     disc.position_world = now.position_world;
-    disc.velocity_world = now.velocity_world;
+    if (planner_.dynamic_model == DynamicModel::constant_velocity) disc.velocity_world = now.velocity_world;
+    disc.speed_bound = disc.velocity_world.norm();
     discs_.push_back(disc);
     return;
   }
-  FieldParameters parameters = field_;
-  if (planner_.dynamic_model == DynamicModel::frozen) {
-    parameters.directional = false;  // a disc at its present position
-    parameters.threshold_scale = 1.0;
-  }
   DangerRegion region;
   region.id = track.id;
-  region.field = ProbabilityField{now, robot_.radius, parameters};
+  region.field = ProbabilityField{now, robot_.radius, field_};
   region.threshold = region.field.threshold();
   regions_.push_back(region);
 }
@@ -195,7 +188,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
       -kLosable * static_margin,
       [&](double, const Eigen::Vector2d& p) { return static_clearance(p, window.margin_scale); }, report);
 
-  // Obstacles have no margin, whether taken as fixed (a round field, below; ES2) or as moving on (ES2*).
+  // Obstacles have no margin.
   const double peer_margin = window.margin_scale * planner_.peer_margin;
   for (const MovingDisc& disc : discs_) {
     DiscCursor other{disc};

@@ -1,5 +1,6 @@
-// A disc with known motion over absolute time: a teammate's broadcast trajectory, an obstacle that moves on
-// at constant velocity, or one at rest. Shared by the peer cost and the clearance check. Frame: world.
+// A disc with known motion over absolute time: a teammate's broadcast trajectory, or an obstacle that moves
+// on at constant velocity or is taken as standing. Shared by the peer cost and the clearance check. Frame:
+// world.
 #pragma once
 
 #include <Eigen/Core>

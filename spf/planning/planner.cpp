@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "spf/planning/braking.hpp"
+#include "spf/planning/cost_to_go.hpp"
 
 namespace spf {
 namespace {
@@ -49,6 +50,12 @@ bool usable(const PlanRequest& request) {
   return finite_head(request) && request.goal_world.allFinite() &&
          std::isfinite(request.goal_heading.value_or(0.0)) && std::isfinite(request.position_sigma) &&
          request.world.map != nullptr && request.guide != nullptr;
+}
+
+std::optional<PlanOutcome> refusal(const PlanRequest& request) {
+  if (!usable(request)) return PlanOutcome::invalid_request;
+  if (!request.guide->ready()) return PlanOutcome::no_path;
+  return std::nullopt;
 }
 
 void stand_instead(const PlanRequest& request, const RobotParameters& robot, PlanOutcome outcome,

@@ -18,7 +18,8 @@ enum class PlanOutcome {
   success,          ///< the trajectory passed the clearance check (spf/planning/clearance.hpp)
   goal_reached,     ///< likewise, and it rests at the goal
   no_path,          ///< the static map has no path to the goal
-  unsafe,           ///< no trajectory that was found passed the check
+  unsafe,           ///< the method came to no trajectory that passed the check; there may be others,
+                    ///< which it did not check
   deadline,         ///< the evaluation budget ended before anything passed
   invalid_request,  ///< numbers not finite, or no map, or no guide
 };
@@ -55,7 +56,7 @@ struct Candidate {
   enum class Kind { previous, side_a, side_b, primitive, optimised, brake };
   Kind kind = Kind::optimised;
   double cost = 0.0;  ///< for comparing candidates of one result: the unit is the method's (see its header)
-  double risk = 0.0;  ///< [1] as PlanResult::risk
+  double risk = 0.0;  ///< [1] as PlanResult::risk, and set by the agent like that
   bool chosen = false;
   Trajectory trajectory;
 };
@@ -73,7 +74,8 @@ struct PlanResult {
   PlanOutcome outcome = PlanOutcome::invalid_request;
   PlanAction action = PlanAction::brake;
   Trajectory trajectory;  ///< always usable, whatever the outcome
-  double risk = 0.0;      ///< [1] probability of contact along `trajectory` by the method's model, in [0, 1]
+  double risk = 0.0;  ///< [1] of `trajectory`, in [0, 1]: contact_risk() (spf/planning/contact_risk.hpp). No
+                      ///< method sets it; the agent does, alike for all
   int blocking_track = -1;            ///< id of the obstacle that shapes the plan most, -1 = none
   int blocking_peer = -1;             ///< likewise, robot number
   PlanStats stats;                    ///< of this call alone
@@ -100,6 +102,9 @@ class Planner {
 
 /// Whether a request can be planned at all: finite numbers, a map and a guide.
 [[nodiscard]] bool usable(const PlanRequest& request);
+/// Why a request cannot be planned, for a method that needs the guide: `invalid_request` when it is not
+/// usable, `no_path` when the guide leads nowhere, since no position near the goal is free. None when it can.
+[[nodiscard]] std::optional<PlanOutcome> refusal(const PlanRequest& request);
 
 /// The result of a method without a plan: a braking trajectory under way goes on, else a new one begins at
 /// the head. If not even the head is finite, the current plan goes on to its end, at rest.

@@ -7,7 +7,8 @@
 
 namespace spf {
 
-/// What is assumed about moving obstacles; the baselines of the paper differ in nothing else.
+/// What is assumed about moving obstacles. The baselines ES2 and ES2* differ in nothing else: both take them
+/// as discs that are kept away from as from peers, and check them without a margin.
 enum class DynamicModel {
   none,               ///< ignored (checks included)
   frozen,             ///< ES2: stays at its present position
@@ -44,7 +45,7 @@ struct CostWeights {
     visit("time", self.time, "1/s", kWeight, "weight of the travel time");
     visit("limits", self.limits, "1/s", kWeight, "weight of exceeded velocity, acceleration and jerk limits");
     visit("peers", self.peers, "1/s", kWeight,
-          "weight of peers (and of obstacles at constant velocity), at contact");
+          "weight of peers (and of obstacles that are predicted as discs), at contact");
     visit("static_hard", self.static_hard, "1/s", kWeight,
           "weight of static obstacles within hard_clearance, at contact");
     visit("static_soft", self.static_soft, "1/s", kWeight,
@@ -54,8 +55,8 @@ struct CostWeights {
   }
 };
 
-/// Shares of max_speed and max_acceleration [1] at which they begin to cost: the penalty gives in a little where
-/// time presses, and is to give in within the limits.
+/// Shares of max_speed and max_acceleration [1] at which they begin to cost: the penalty gives in a little
+/// where time presses, and is to give in within the limits.
 inline constexpr double kSpeedOnset = 0.975;
 inline constexpr double kAccelerationOnset = 0.95;
 /// Accepted excess of a plan over max_speed and max_acceleration [1]: less than commands may exceed them
@@ -73,7 +74,7 @@ struct PlannerParameters {
   double hard_clearance = 0.1;   ///< [m] wanted beyond that from static obstacles
   double soft_clearance = 0.3;   ///< [m] comfortable beyond that
   double peer_margin = 0.05;     ///< [m] beyond contact with peers, for checks
-  double peer_clearance = 0.25;  ///< [m] wanted beyond contact with peers
+  double peer_clearance = 0.25;  ///< [m] wanted beyond contact with peers and obstacles predicted as discs
   double safety_distance = 0.3;  ///< [m] d_saf of eq. 10, wanted beyond the field's ellipse
   double least_lateral_share =
       0.7;  ///< [1] sine of the least angle between escape direction and path through the field
@@ -97,7 +98,7 @@ struct PlannerParameters {
           "comfortable beyond static_margin (ES2: 0.5)");
     visit("peer_margin", self.peer_margin, kMetresBySize, kLength, "beyond contact with peers, for checks");
     visit("peer_clearance", self.peer_clearance, kMetresBySize, Range{0.001, 100.0},
-          "wanted beyond contact with them");
+          "wanted beyond contact with them (and with obstacles that are predicted as discs)");
     visit("safety_distance", self.safety_distance, kMetresBySize, Range{0.001, 100.0}, "d_saf of eq. 10");
     visit("least_lateral_share", self.least_lateral_share, "1", Range{0.0, 1.0},
           "sine of the least angle between an escape direction and the path through the field; 0 = eq. 11 as "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "spf/planning/cost_to_go.hpp"
@@ -50,6 +51,21 @@ TEST_F(PlanRequestTest, IsUsableOnlyWithFiniteNumbersAMapAndAGuide) {
     spoilers[i](bad);
     EXPECT_FALSE(usable(bad)) << "case " << i;
   }
+}
+
+TEST_F(PlanRequestTest, IsRefusedWithOneOutcomeForEveryMethod) {
+  EXPECT_EQ(refusal(request), PlanOutcome::no_path);  // the guide has never been computed
+  guide.update(map, {3.0, 3.0}, request.head.position_world);
+  EXPECT_EQ(refusal(request), std::nullopt);
+  const OccupancyMap full = [] {
+    OccupancyMap walled{GridFrame::covering({-5.0, -5.0}, {5.0, 5.0}, 0.1), 2.0};
+    walled.add_box({-5.0, -5.0}, {5.0, 5.0});
+    return walled;
+  }();
+  guide.update(full, {3.0, 3.0}, request.head.position_world);
+  EXPECT_EQ(refusal(request), PlanOutcome::no_path);  // no position near the goal is free
+  request.head.velocity_world.x() = kNaN;
+  EXPECT_EQ(refusal(request), PlanOutcome::invalid_request);
 }
 
 TEST_F(PlanRequestTest, WithoutAPlanTheRobotBrakesFromItsHead) {

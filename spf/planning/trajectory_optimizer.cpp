@@ -86,11 +86,10 @@ void TrajectoryOptimizer::add_node_terms() {
              kAccelerationOnset * robot_.max_acceleration, robot_.max_jerk}
       .add(nodes_);
   SpacingCost{weights.spacing, planner_.piece_length / planner_.nodes_per_piece}.add(nodes_);
-  const StaticCost surface{weights.static_hard * problem_.static_factor,
-                           weights.static_soft * problem_.static_factor, planner_.hard_clearance,
-                           planner_.soft_clearance};
-  if (problem_.static_pairs != nullptr) surface.add(*problem_.static_pairs, nodes_);
-  if (problem_.frozen_pairs != nullptr) surface.add(*problem_.frozen_pairs, nodes_);
+  if (problem_.static_pairs != nullptr)
+    StaticCost{weights.static_hard * problem_.static_factor, weights.static_soft * problem_.static_factor,
+               planner_.hard_clearance, planner_.soft_clearance}
+        .add(*problem_.static_pairs, nodes_);
   if (problem_.discs != nullptr)
     PeerCost{weights.peers * problem_.peer_factor, planner_.peer_clearance}.add(
         *problem_.discs, problem_.last_moving_node, nodes_);

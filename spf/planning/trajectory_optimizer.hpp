@@ -56,11 +56,9 @@ struct TrajectoryProblem {
   double start_time = 0.0;                         ///< [s] absolute time of the head
   MincoEnds ends;                                  ///< head and tail
   int last_moving_node = 1 << 20;                  ///< nodes beyond it ignore peers and moving obstacles
-  const std::vector<MovingDisc>* discs = nullptr;  ///< peers, obstacles at constant velocity
+  const std::vector<MovingDisc>* discs = nullptr;  ///< peers, and obstacles that are predicted as discs
   const std::vector<GuidePair>* static_pairs = nullptr;
   const std::vector<GuidePair>* field_pairs = nullptr;  ///< guide points of the probability field
-  const std::vector<GuidePair>* frozen_pairs =
-      nullptr;  ///< obstacles taken as fixed (ES2): cost as static ones
   // Factors on weights, raised after a failed check.
   double peer_factor = 1.0;
   double dynamic_factor = 1.0;

@@ -26,16 +26,16 @@ void Commitment::reconfigure(const AgentParameters& parameters) {
   robot_ = parameters.robot;
 }
 
-void Commitment::begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request,
+void Commitment::begin_plan(const StateEstimate& estimate, PlanRequest& request,
                             const std::optional<Hold>& hold) {
   request.head = trajectory_.state(request.time);
   request.heading = trajectory_.heading().state(request.time);
   request.committed = &trajectory_;
   request.braking = braking_;
-  if (!estimate || !estimate->valid) return;
-  const Pose2& pose = estimate->pose_world;
+  if (!estimate.valid) return;
+  const Pose2& pose = estimate.pose_world;
   const Eigen::Vector2d error = pose.position_world - request.head.position_world;
-  const double noise = 4.0 * std::sqrt(estimate->position_variance);
+  const double noise = 4.0 * std::sqrt(estimate.position_variance);
   // One that is only slowed down goes on along its plan while it is near it.
   const bool stands = hold && hold->stands;
   if (error.norm() > (stands ? noise : std::max(reanchor_distance_, noise))) {

@@ -21,9 +21,9 @@ class Commitment {
   void reconfigure(const AgentParameters& parameters);
 
   /// Fills in where a plan made at request.time begins. It goes on from the trajectory, which keeps the
-  /// motion smooth; a robot that has been carried too far from it (`estimate`, when given) starts anew where
-  /// it is, as it is told to move when it is held, and so does one that may not go on at all.
-  void begin_plan(const std::optional<StateEstimate>& estimate, PlanRequest& request,
+  /// motion smooth; a robot that has been carried too far from it, by an estimate that is valid, starts anew
+  /// where it is, as it is told to move when it is held, and so does one that may not go on at all.
+  void begin_plan(const StateEstimate& estimate, PlanRequest& request,
                   const std::optional<Hold>& hold = std::nullopt);
   /// Does what the result's action says, with the heading that the heading mode wants; near its end with the
   /// goal's, where the goal has one, whatever the mode. That is kept from then on where the mode keeps one.

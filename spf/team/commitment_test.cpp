@@ -32,7 +32,7 @@ class CommitmentTest : public ::testing::Test {
   /// Committed to a way along x at 0.8 m/s from time 1 s on.
   void set_out() {
     PlanRequest request = request_at(1.0);
-    commitment.begin_plan(std::nullopt, request);
+    commitment.begin_plan(StateEstimate{}, request);
     commitment.follow(request, follow(straight({0.0, 0.0}, {0.8, 0.0}, 1.0, 5.0)));
   }
   Commitment commitment{AgentParameters{}, {{0.0, 0.0}, 0.0}, 0.0};
@@ -108,7 +108,7 @@ TEST_F(CommitmentTest, ThereIsNoStartingAnewForAnEstimateThatMayBeThatFarOff) {
 TEST_F(CommitmentTest, KeepsThePlanUnderWayWhenToldTo) {
   set_out();
   PlanRequest request = request_at(2.0);
-  commitment.begin_plan(std::nullopt, request);
+  commitment.begin_plan(StateEstimate{}, request);
   PlanResult result = follow(straight({5.0, 5.0}, {0.0, 0.0}, 2.0, 1.0));
   result.action = PlanAction::keep;
   commitment.follow(request, result);
@@ -146,7 +146,7 @@ TEST(CommitmentHeading, FollowsItsMode) {
     PlanRequest request = request_at(1.0);
     request.goal_world = {9.0, 9.0};
     request.goal_heading = -1.0;
-    commitment.begin_plan(std::nullopt, request);
+    commitment.begin_plan(StateEstimate{}, request);
     commitment.follow(request, follow(straight({0.0, 0.0}, {0.3, 0.3}, 1.0, 20.0)));
     const double wanted = mode == HeadingMode::keep ? 0.3 : (mode == HeadingMode::goal ? -1.0 : 0.25 * kPi);
     EXPECT_NEAR(commitment.trajectory().heading().state(20.0).heading, wanted, 1e-9);
@@ -161,7 +161,7 @@ std::vector<double> headings_on_the_way(Commitment& commitment, const Trajectory
     PlanRequest request = request_at(time);
     request.goal_world = way.tail_position();
     request.goal_heading = goal_heading;
-    commitment.begin_plan(std::nullopt, request);
+    commitment.begin_plan(StateEstimate{}, request);
     headings.push_back(request.heading.heading);
     commitment.follow(request, follow(way));
   }
@@ -198,7 +198,7 @@ TEST(CommitmentHeading, KeepsTheHeadingOfItsLastGoalOnTheWayToTheNext) {
   EXPECT_NEAR(headings_on_the_way(commitment, way_to(5.0), 2.0).back(), 2.0, 1e-6);
   PlanRequest request = request_at(20.0);
   request.goal_world = {-5.0, 0.0};
-  commitment.begin_plan(std::nullopt, request);
+  commitment.begin_plan(StateEstimate{}, request);
   commitment.follow(request, follow(straight({5.0, 0.0}, {-1.0, 0.0}, 20.0, 5.0)));
   EXPECT_NEAR(commitment.trajectory().heading().target_heading(), 2.0, 1e-9);
 }
@@ -208,7 +208,7 @@ TEST(CommitmentHeading, KeepsStillWhileItsMotionSaysNothing) {
   parameters.heading_mode = HeadingMode::motion;
   Commitment commitment{parameters, {{0.0, 0.0}, 0.3}, 0.0};
   PlanRequest request = request_at(1.0);
-  commitment.begin_plan(std::nullopt, request);
+  commitment.begin_plan(StateEstimate{}, request);
   commitment.follow(request, follow(straight({0.0, 0.0}, {0.0, -0.05}, 1.0, 20.0)));
   EXPECT_NEAR(commitment.trajectory().heading().state(20.0).heading, 0.3, 1e-9);
 }

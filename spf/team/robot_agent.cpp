@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "spf/planning/contact_risk.hpp"
 #include "spf/robot/omni_dynamics.hpp"
 #include "spf/team/announcement.hpp"
 #include "spf/team/beliefs.hpp"
@@ -27,12 +28,12 @@ struct RobotAgent::Implementation {
                  const Pose2& start, double time);
 
   void reconfigure(const AgentParameters& changed);
-  std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state, StopCause stop,
+  std::optional<TrajectoryMessage> plan(double now, const StateEstimate& state, StopCause stop,
                                         const std::optional<Hold>& hold);
-  void brake(double now, const std::optional<StateEstimate>& held_at);
-  void make_plan(double now, const std::optional<StateEstimate>& state, const std::optional<Hold>& hold);
+  void brake(double now, const StateEstimate* held_at);
+  void make_plan(double now, const StateEstimate& state, const std::optional<Hold>& hold);
   [[nodiscard]] StandCause standing_cause(double now, const std::optional<Hold>& hold) const;
-  [[nodiscard]] double position_sigma(const std::optional<StateEstimate>& state) const;
+  [[nodiscard]] double position_sigma(const StateEstimate& state) const;
 
   int id;
   AgentParameters parameters;
@@ -47,7 +48,8 @@ struct RobotAgent::Implementation {
   std::optional<double> goal_heading;   // [rad]
   bool keep_candidates = false;
   bool too_fast = false;  // the plan under way was made for a higher speed
-  PlanResult result;
+  PlanResult result;      // of the planner's last call
+  StopCause stop_cause = StopCause::none;
   PlanSchedule schedule;
 };
 
@@ -75,8 +77,7 @@ void RobotAgent::Implementation::reconfigure(const AgentParameters& changed) {
   announcement.reconfigure(parameters);
 }
 
-std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
-                                                                  const std::optional<StateEstimate>& state,
+std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now, const StateEstimate& state,
                                                                   StopCause stop,
                                                                   const std::optional<Hold>& hold) {
   schedule.planned(now);
@@ -84,27 +85,24 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now,
   beliefs.refresh(now);
   // 2. A plan, unless there is a cause to stop that no plan can mend.
   if (stop == StopCause::none && !goal) stop = StopCause::no_goal;
+  stop_cause = stop;
   if (stop == StopCause::none)
     make_plan(now, state, hold);
   else
-    brake(now, stop == StopCause::stuck ? state : std::nullopt);
+    brake(now, stop == StopCause::stuck ? &state : nullptr);
   // 3. Say how it stands, to the host and to the peers.
   announcement.update(now,
                       {commitment.trajectory(), commitment.braking(), goal, stop, standing_cause(now, hold)});
   return announcement.message(now, schedule.next(), commitment.trajectory(), position_sigma(state));
 }
 
-/// `held_at`: where a robot is that does not move as it is told, nor will brake as it is told.
-void RobotAgent::Implementation::brake(double now, const std::optional<StateEstimate>& held_at) {
-  bool anew = commitment.brake(now);
-  if (held_at) anew = commitment.stand_where(*held_at, now) || anew;
-  if (!anew) return;
-  result.clear();
-  result.outcome = PlanOutcome::unsafe;
-  result.trajectory = commitment.trajectory();
+/// `held_at`: where a robot is that does not move as it is told, nor will brake as it is told; else null.
+void RobotAgent::Implementation::brake(double now, const StateEstimate* held_at) {
+  commitment.brake(now);
+  if (held_at != nullptr) commitment.stand_where(*held_at, now);
 }
 
-void RobotAgent::Implementation::make_plan(double now, const std::optional<StateEstimate>& state,
+void RobotAgent::Implementation::make_plan(double now, const StateEstimate& state,
                                            const std::optional<Hold>& hold) {
   guide.refresh(now, beliefs.map(), *goal, commitment.trajectory().position(now));
   PlanRequest request;
@@ -119,6 +117,7 @@ void RobotAgent::Implementation::make_plan(double now, const std::optional<State
   if (std::exchange(too_fast, false)) request.committed = nullptr;  // there is none to keep
   request.position_sigma = position_sigma(state);
   planner->plan(request, result);
+  set_risk(request, parameters.robot.radius, result);
   commitment.follow(request, result);
 }
 
@@ -131,9 +130,8 @@ StandCause RobotAgent::Implementation::standing_cause(double now, const std::opt
   return {StopCause::planner_failed};
 }
 
-double RobotAgent::Implementation::position_sigma(const std::optional<StateEstimate>& state) const {
-  if (!state) return 0.0;
-  return std::sqrt(state->position_variance + commitment.tracking_variance());
+double RobotAgent::Implementation::position_sigma(const StateEstimate& state) const {
+  return std::sqrt(state.position_variance + commitment.tracking_variance());
 }
 
 RobotAgent::RobotAgent(int robot_id, const AgentParameters& parameters, const OccupancyMap& map,
@@ -178,8 +176,8 @@ bool RobotAgent::plan_due(double now) const {
 void RobotAgent::plan_soon(double now, double least_interval) {
   implementation_->schedule.bring_forward(now, least_interval);
 }
-std::optional<TrajectoryMessage> RobotAgent::plan(double now, const std::optional<StateEstimate>& state,
-                                                  StopCause stop, const std::optional<Hold>& hold) {
+std::optional<TrajectoryMessage> RobotAgent::plan(double now, const StateEstimate& state, StopCause stop,
+                                                  const std::optional<Hold>& hold) {
   return implementation_->plan(now, state, stop, hold);
 }
 
@@ -191,6 +189,9 @@ const AgentParameters& RobotAgent::parameters() const {
 }
 const PlanResult& RobotAgent::last_plan() const {
   return implementation_->result;
+}
+StopCause RobotAgent::stop_cause() const {
+  return implementation_->stop_cause;
 }
 const Trajectory& RobotAgent::committed() const {
   return implementation_->commitment.trajectory();

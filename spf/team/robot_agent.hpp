@@ -61,15 +61,18 @@ class RobotAgent {
   /// alone counts.
   void plan_soon(double now, double least_interval);
   /// Plans and commits, or brakes where there is a cause to stop that no plan can mend; returns the message
-  /// to broadcast when there is one. `state` is where the robot is now; without it the robot is exactly where
-  /// its trajectory says. A robot that is held plans from where it is.
-  std::optional<TrajectoryMessage> plan(double now, const std::optional<StateEstimate>& state,
+  /// to broadcast when there is one. `state` is where the robot is now; one that is not valid says nothing,
+  /// and the plan goes on from the trajectory under way. A robot that is held plans from where it is.
+  std::optional<TrajectoryMessage> plan(double now, const StateEstimate& state,
                                         StopCause stop = StopCause::none,
                                         const std::optional<Hold>& hold = std::nullopt);
 
   [[nodiscard]] int robot_id() const;
   [[nodiscard]] const AgentParameters& parameters() const;
+  /// What the planner returned when it was last asked.
   [[nodiscard]] const PlanResult& last_plan() const;
+  /// Why the last call of plan() did not ask the planner; `none` when it did.
+  [[nodiscard]] StopCause stop_cause() const;
   /// The trajectory under way (never empty: standing at the start before the first plan).
   [[nodiscard]] const Trajectory& committed() const;
   /// As of the last plan.

@@ -428,12 +428,15 @@ TEST_P(RobotAgentMethodTest, GivesTheSameBitsForTheSameInputs) {
   EXPECT_GT((host.place - Eigen::Vector2d{-3.0, 0.0}).norm(), 1.0);
 }
 
-TEST(RobotAgent, MovedAsPlannedItKnowsWhereItIs) {
+TEST(RobotAgent, ExactlyOnItsPlanItIsSureOfIt) {
   RobotAgent agent{1, AgentParameters{}, empty_map(), {{-3.0, 0.0}, 0.0}, 0.0};
   agent.set_goal({3.0, 0.0});
   for (int tick = 1; tick <= 1000; ++tick) {
     if (!agent.plan_due(0.01 * tick)) continue;
-    const std::optional<TrajectoryMessage> told = agent.plan(0.01 * tick, std::nullopt);
+    StateEstimate exact;
+    exact.valid = true;
+    exact.pose_world = {agent.committed().position(0.01 * tick), 0.0};
+    const std::optional<TrajectoryMessage> told = agent.plan(0.01 * tick, exact);
     EXPECT_EQ(told.value_or(TrajectoryMessage{}).position_sigma, 0.0);
   }
   EXPECT_LT((agent.committed().position(10.0) - Eigen::Vector2d{3.0, 0.0}).norm(), 0.05);
@@ -497,6 +500,23 @@ TEST(RobotAgent, BuildsThePlannerItIsGivenAndNoOther) {
   EXPECT_NEAR(calls, 10, 1);
   EXPECT_EQ(host.agent.status().reason, StopCause::planner_failed);
   EXPECT_EQ(host.agent.last_plan().outcome, PlanOutcome::unsafe);
+}
+
+// Nothing near it, and then somebody upon it: every method means the same.
+TEST(RobotAgent, RiskIsTheSameForEveryMethod) {
+  const MethodTable methods;
+  for (const Method& method : methods.all()) {
+    SCOPED_TRACE(method.name);
+    IdealHost host{with_method(AgentParameters{}, method), empty_map(), {-3.0, 0.0}};
+    host.agent.set_goal({6.0, 0.0});
+    host.run(0.5);
+    EXPECT_EQ(host.agent.last_plan().risk, 0.0);
+    const Eigen::Vector2d beside = host.place + Eigen::Vector2d{0.3, 0.4};
+    host.movers = {{5, 0.4, [beside](double) { return beside; }}};
+    host.run(0.2);
+    EXPECT_GT(host.agent.last_plan().risk, 0.99);
+    EXPECT_LE(host.agent.last_plan().risk, 1.0);
+  }
 }
 
 TEST(RobotAgent, RefusesWhatIsOutOfRange) {

@@ -30,4 +30,9 @@ struct WorldSnapshot {
   [[nodiscard]] Rank rank() const { return {priority, robot_id}; }
 };
 
+/// Whether a peer makes way for the robot of a snapshot: it moves, is heard, and does not go first.
+[[nodiscard]] inline bool yields(const Peer& peer, const WorldSnapshot& world) {
+  return peer.state == PeerState::moving && !peer.expired && !goes_first(peer.rank(), world.rank());
+}
+
 }  // namespace spf

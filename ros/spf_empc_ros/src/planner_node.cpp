@@ -174,7 +174,7 @@ void PlannerNode::step() {
   const bool back = next_status_ > seconds + kStatusPeriod;  // the clock has jumped
   if (output.planned || seconds >= next_status_ || back) {
     next_status_ = seconds + kStatusPeriod;
-    publish_status(time, output.planned ? plan_ms : 0.0);
+    publish_status(time, output.asked_planner ? plan_ms : 0.0);
     report(time);
   }
   if (seconds >= pictures_.next || pictures_.next > seconds + kPicturePeriod) {

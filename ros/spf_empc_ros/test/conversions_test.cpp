@@ -289,7 +289,7 @@ TEST(Display, ShowsPathRobotFieldsAndTracks) {
   observation.detections.resize(1);
   observation.detections[0].position_world = {3.0, 2.0};
   agent.observe(observation, spf::Pose2{}, 1.0);
-  agent.plan(1.0, std::nullopt);
+  agent.plan(1.0, spf::StateEstimate{});
   const nav_msgs::Path path = path_message(agent.committed(), 1.0, kClock, "map");
   ASSERT_GT(path.poses.size(), 20u);
   EXPECT_NEAR(path.poses.back().pose.position.x, agent.committed().tail_position().x(), 1e-9);

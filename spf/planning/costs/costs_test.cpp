@@ -27,7 +27,6 @@ struct CostScene {
   TrajectorySeed seed;
   TrajectoryProblem problem;
   std::vector<GuidePair> static_pairs;
-  std::vector<GuidePair> frozen_pairs;
   std::vector<GuidePair> field_pairs;
   std::vector<MovingDisc> discs;
   Trajectory course;
@@ -55,10 +54,7 @@ void draw_scene(RandomStream& random, int pieces, CostScene& scene) {
     const double angle = random.uniform(-3.0, 3.0);
     const Eigen::Vector2d normal{std::cos(angle), std::sin(angle)};
     const Eigen::Vector2d edge = at + 0.3 * normal;  // most nodes on the bad side
-    (k % 3 == 0   ? scene.static_pairs
-     : k % 3 == 1 ? scene.field_pairs
-                  : scene.frozen_pairs)
-        .push_back({k, edge, normal, -1});
+    (k % 3 == 1 ? scene.field_pairs : scene.static_pairs).push_back({k, edge, normal, -1});
   }
   QuinticPiece piece;
   piece.duration = 1.5;
@@ -102,7 +98,6 @@ double worst_error(const CostWeights& weights, const std::function<void(Trajecto
       draw_scene(random, pieces, scene);
       scene.problem.static_pairs = &scene.static_pairs;
       scene.problem.field_pairs = &scene.field_pairs;
-      scene.problem.frozen_pairs = &scene.frozen_pairs;
       scene.problem.discs = &scene.discs;
       if (adjust) adjust(scene.problem);
       optimizer.set(scene.problem, scene.seed);

@@ -1,5 +1,5 @@
-// Teammates, and obstacles assumed to move on at constant velocity (the baseline ES2*): discs with known
-// motion over absolute time. Frame: world.
+// Teammates, and obstacles that are predicted as discs (the baselines ES2 and ES2*): their motion over
+// absolute time is taken as known. Frame: world.
 #pragma once
 
 #include <vector>

@@ -77,7 +77,7 @@ FieldPlanner::FieldPlanner(const PlannerParameters& planner, const RobotParamete
       search_{detour_search()},
       seeds_{planner, robot_},
       optimizer_{planner, robot_} {
-  for (std::vector<GuidePair>* pairs : {&seed_pairs_, &static_pairs_, &dynamic_pairs_})
+  for (std::vector<GuidePair>* pairs : {&seed_pairs_, &static_pairs_, &field_pairs_})
     pairs->reserve(kPairCapacity);
   conflicts_.reserve(64);
   sides_.reserve(64);
@@ -152,8 +152,7 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   problem_.last_moving_node = last_moving_node(nodes, kCheckedFraction, target.is_goal, robot_);
   problem_.discs = &clearance_.discs();
   problem_.static_pairs = &static_pairs_;
-  (planner_.dynamic_model == DynamicModel::frozen ? problem_.frozen_pairs : problem_.field_pairs) =
-      &dynamic_pairs_;
+  problem_.field_pairs = &field_pairs_;
 
   // Static obstacles that the seed runs through, and obstacles whose field it enters.
   seed_pairs_.clear();
@@ -165,9 +164,8 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
   }
   guidance_.find_conflicts(clearance_.regions(), nodes, problem_.last_moving_node, request.head, conflicts_);
 
-  // Every combination of sides (Fig. 4), the first obstacles first. ES2 uses one side only.
-  const int sides =
-      planner_.dynamic_model == DynamicModel::probability_field ? static_cast<int>(conflicts_.size()) : 0;
+  // Every combination of sides (Fig. 4), the first obstacles first.
+  const int sides = static_cast<int>(conflicts_.size());
   int free_sides = 0;
   while (free_sides < sides && (2 << free_sides) <= kMaxSideCombinations) ++free_sides;
   for (int mask = 0; mask < (1 << free_sides); ++mask) {
@@ -188,12 +186,12 @@ bool FieldPlanner::try_seed(SeedKind kind, const PlanRequest& request, const Loc
 
 bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kind, PlanResult& result) {
   static_pairs_ = seed_pairs_;
-  dynamic_pairs_.clear();
+  field_pairs_.clear();
   problem_.peer_factor = problem_.dynamic_factor = problem_.static_factor = problem_.limits_factor = 1.0;
   current_ = seed_;
   optimizer_.set(problem_, current_);
   guidance_.add_pairs(clearance_.regions(), optimizer_.nodes(), problem_.last_moving_node, request.head,
-                      sides_, dynamic_pairs_);
+                      sides_, field_pairs_);
   int rebounds = 0;
   int failed_checks = 0;
   while (true) {
@@ -212,7 +210,7 @@ bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kin
     last_report_ = clearance_.check(trajectory, {request.time, trajectory.end_time(), until, 1.0, &brake_});
     const LimitReport limits = check_limits(trajectory, robot_, kinematics_);
     if (last_report_.clear() && within_limits(limits, request.head)) {
-      keep_best(request, run, kind, trajectory, until, result);
+      keep_best(request, run, kind, trajectory, result);
       return true;
     }
     if (failed_checks++ >= kUnsafeRetries || !answer(request)) return true;
@@ -244,7 +242,7 @@ bool FieldPlanner::answer(const PlanRequest& request) {
   constexpr double kHarder = 2.0;
   // The field's guide points are recomputed at the current nodes, on the chosen sides.
   guidance_.add_pairs(clearance_.regions(), optimizer_.nodes(), problem_.last_moving_node, request.head,
-                      sides_, dynamic_pairs_);
+                      sides_, field_pairs_);
   switch (last_report_.kind) {
     case ConflictKind::none:
       problem_.limits_factor *= kHarder;
@@ -277,16 +275,14 @@ bool FieldPlanner::within_limits(const LimitReport& limits, const FlatState& hea
 }
 
 void FieldPlanner::keep_best(const PlanRequest& request, const OptimizerResult& run, Candidate::Kind kind,
-                             const Trajectory& trajectory, double until, PlanResult& result) {
+                             const Trajectory& trajectory, PlanResult& result) {
   const double cost = run.cost * side_discount(request.time);
-  if (request.keep_candidates)
-    result.candidates.push_back({kind, cost, risk_of(trajectory, until), false, trajectory});
+  if (request.keep_candidates) result.candidates.push_back({kind, cost, 0.0, false, trajectory});
   if (best_.valid && best_.cost <= cost) return;
   best_.valid = true;
   best_.cost = cost;
   best_.trajectory = trajectory;
   best_.sides = sides_;
-  best_.moving_until = until;
   best_.candidate = static_cast<int>(result.candidates.size()) - 1;
 }
 
@@ -301,18 +297,6 @@ double FieldPlanner::side_discount(double time) const {
     remembered = true;
   }
   return remembered ? 1.0 - kSideBonus : 1.0;
-}
-
-/// Largest risk of any field along the part that takes moving obstacles into account.
-double FieldPlanner::risk_of(const Trajectory& trajectory, double until) const {
-  constexpr double kStep = 0.1;  // [s]
-  double largest = 0.0;
-  for (double time = trajectory.start_time(); time <= until; time += kStep) {
-    const Eigen::Vector2d position = trajectory.position(time);
-    for (const DangerRegion& region : clearance_.regions())
-      largest = std::max(largest, region.field.risk(position));
-  }
-  return largest;
 }
 
 void FieldPlanner::add_heading(const PlanRequest& request, Trajectory& trajectory) const {
@@ -332,7 +316,6 @@ void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, Pla
     result.action = PlanAction::follow;
     result.trajectory = best_.trajectory;
     add_heading(request, result.trajectory);
-    result.risk = risk_of(best_.trajectory, best_.moving_until);
     for (std::size_t r = 0; r < best_.sides.size(); ++r) {
       if (!best_.sides[r].decided) continue;
       const int id = clearance_.regions()[r].id;
@@ -344,11 +327,10 @@ void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, Pla
     result.outcome = failure;
     result.action = PlanAction::brake;
     result.trajectory = brake_;
-    result.risk = risk_of(result.trajectory, result.trajectory.end_time());
     if (last_report_.kind == ConflictKind::peer) result.blocking_peer = last_report_.id;
     if (last_report_.kind == ConflictKind::obstacle) result.blocking_track = last_report_.id;
     if (request.keep_candidates)
-      result.candidates.push_back({Candidate::Kind::brake, 0.0, result.risk, true, result.trajectory});
+      result.candidates.push_back({Candidate::Kind::brake, 0.0, 0.0, true, result.trajectory});
   }
   result.stats.side_changes = guidance_.side_changes(request.time);
 }

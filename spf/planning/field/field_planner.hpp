@@ -42,8 +42,7 @@ class FieldPlanner final : public Planner {
     double cost = 0.0;  // with the side bonus
     Trajectory trajectory;
     std::vector<SideChoice> sides;
-    double moving_until = 0.0;  // [s] absolute
-    int candidate = -1;         // index in the result, when candidates are kept
+    int candidate = -1;  // index in the result, when candidates are kept
   };
 
   void prepare(const PlanRequest& request);
@@ -58,9 +57,8 @@ class FieldPlanner final : public Planner {
   bool answer(const PlanRequest& request);
   [[nodiscard]] bool within_limits(const LimitReport& limits, const FlatState& head) const;
   void keep_best(const PlanRequest& request, const OptimizerResult& run, Candidate::Kind kind,
-                 const Trajectory& trajectory, double until, PlanResult& result);
+                 const Trajectory& trajectory, PlanResult& result);
   [[nodiscard]] double side_discount(double time) const;
-  [[nodiscard]] double risk_of(const Trajectory& trajectory, double until) const;
   void add_heading(const PlanRequest& request, Trajectory& trajectory) const;
   /// Fills the result with the best accepted plan, or with braking and the outcome `failure`.
   void conclude(const PlanRequest& request, PlanOutcome failure, PlanResult& result);
@@ -80,11 +78,11 @@ class FieldPlanner final : public Planner {
   TrajectorySeed current_;  // where the next run of a candidate starts
   TrajectoryProblem problem_;
   std::vector<FieldConflict> conflicts_;
-  std::vector<GuidePair> seed_pairs_;     // static pairs of the seed
-  std::vector<GuidePair> static_pairs_;   // of the candidate
-  std::vector<GuidePair> dynamic_pairs_;  // of the candidate
-  std::vector<SideChoice> sides_;         // of the candidate
-  Trajectory brake_;                      // the fallback
+  std::vector<GuidePair> seed_pairs_;    // static pairs of the seed
+  std::vector<GuidePair> static_pairs_;  // of the candidate
+  std::vector<GuidePair> field_pairs_;   // of the candidate
+  std::vector<SideChoice> sides_;        // of the candidate
+  Trajectory brake_;                     // the fallback
   Accepted best_;
   ClearanceReport last_report_;
 };

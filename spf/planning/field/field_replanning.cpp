@@ -15,8 +15,8 @@ constexpr double kPrimitiveHorizon = 3.0;  // [s]
 constexpr double kLinger = 0.5;            // [s] longer in a field than the quickest way out, at most
 constexpr double kTimeTolerance = 1e-9;    // [s]
 
-/// Does this peer have to yield to the robot?
-bool yields(const WorldSnapshot& world, int peer_id) {
+/// Whether the robot goes before this peer, moving or not.
+bool goes_before(const WorldSnapshot& world, int peer_id) {
   const auto peer = std::find_if(world.peers->begin(), world.peers->end(),
                                  [peer_id](const Peer& candidate) { return candidate.robot_id == peer_id; });
   return peer != world.peers->end() && goes_first(world.rank(), peer->rank());
@@ -51,7 +51,8 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
   threat.urgent =
       threat.conflict && threat.report.time - request.time < stop_time + replanning_.emergency_time;
   // A peer that has to yield will plan around this robot, which reacts only when the peer gets close.
-  if (threat.report.kind == ConflictKind::peer && !threat.urgent && yields(request.world, threat.report.id))
+  if (threat.report.kind == ConflictKind::peer && !threat.urgent &&
+      goes_before(request.world, threat.report.id))
     threat.conflict = false;
   // The obstacle may be here soon: a trajectory has to leave the regions nearly as fast as possible.
   if (in_fields_) {
@@ -95,7 +96,6 @@ void FieldReplanning::plan(const PlanRequest& request, PlanResult& result) {
     attempt(request, threat, result);
   } else {
     result.outcome = last_.outcome;
-    result.risk = last_.risk;
     result.blocking_track = last_.blocking_track;
     result.blocking_peer = last_.blocking_peer;
     if (threat.urgent)
@@ -103,7 +103,7 @@ void FieldReplanning::plan(const PlanRequest& request, PlanResult& result) {
     else
       keep(request, result);
   }
-  last_ = {result.outcome, result.risk, result.blocking_track, result.blocking_peer};
+  last_ = {result.outcome, result.blocking_track, result.blocking_peer};
 }
 
 void FieldReplanning::attempt(const PlanRequest& request, const Threat& threat, PlanResult& result) {

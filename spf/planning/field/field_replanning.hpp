@@ -31,7 +31,6 @@ class FieldReplanning final : public Planner {
   /// Outcome of the last attempt.
   struct Attempt {
     PlanOutcome outcome = PlanOutcome::success;
-    double risk = 0.0;  // [1]
     int blocking_track = -1;
     int blocking_peer = -1;
   };

@@ -186,9 +186,8 @@ OrcaPlanner::OrcaPlanner(const OrcaParameters& parameters, const RobotParameters
 
 void OrcaPlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.clear();
-  if (!usable(request) || !request.guide->ready()) {
-    const bool no_goal = usable(request);  // no free position near the goal
-    stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
+  if (const std::optional<PlanOutcome> refused = refusal(request)) {
+    stand_instead(request, robot_, *refused, result);
     return;
   }
   // 1. The preferred velocity and the neighbours.
@@ -203,14 +202,13 @@ void OrcaPlanner::plan(const PlanRequest& request, PlanResult& result) {
   const VelocityChoice choice = programme_.choose(planes_, hard_count, wanted, robot_.max_speed);
   result.trajectory = trajectory_for(request, choice.velocity);
   result.action = PlanAction::follow;
-  // 4. Risk, statistics and outcome.
-  result.risk = choice.feasible ? 0.0 : 1.0;
+  // 4. Statistics and outcome.
   result.stats.primitives = 1;
   name_what_blocks(wanted, result);
   judge_.judge(request, result.trajectory.end_time(), result);
   if (!request.keep_candidates) return;
   const double departure = (choice.velocity - wanted).norm();
-  result.candidates.push_back({Candidate::Kind::primitive, departure, result.risk, true, result.trajectory});
+  result.candidates.push_back({Candidate::Kind::primitive, departure, 0.0, true, result.trajectory});
 }
 
 /// Along the guide at max_speed, slower where the robot has to stop at the goal.

@@ -76,8 +76,7 @@ class OrcaPlanner final : public Planner {
 
   /// The trajectory holds the chosen velocity for one period, then brakes to rest: a robot that gets no
   /// further plan stops. Where no velocity satisfies all half-planes, that of least violation is driven. The
-  /// method models no uncertainty: the risk is 0 or, with a violation, 1. The cost of its one candidate is
-  /// the departure from the preferred velocity [m/s].
+  /// cost of its one candidate is the departure from the preferred velocity [m/s].
   void plan(const PlanRequest& request, PlanResult& result) override;
 
  private:

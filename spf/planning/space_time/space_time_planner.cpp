@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "spf/math/normal_distribution.hpp"
 
@@ -107,11 +108,9 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
       surface_chance(roll_out, stop, request) +
       sight_.blind_share(roll_out.position_world[soon], roll_out.velocity_world[soon]);
   const double left = (enough - score.time) / std::max(parameters_.collision_cost, 1e-9) - static_chance;
-  score.chance = static_chance;
   score.risk = static_chance * parameters_.collision_cost;
   if (left < 0.0) return score;
   const double moving_chance = risk_.along(roll_out.position_world, roll_out.steps, stop, left, &score.worst);
-  score.chance += moving_chance;
   score.risk += moving_chance * parameters_.collision_cost;
   return score;
 }
@@ -194,9 +193,8 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
 
 void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.clear();
-  if (!usable(request) || !request.guide->ready()) {
-    const bool no_goal = usable(request);  // no free position near the goal
-    stand_instead(request, robot_, no_goal ? PlanOutcome::no_path : PlanOutcome::invalid_request, result);
+  if (const std::optional<PlanOutcome> refused = refusal(request)) {
+    stand_instead(request, robot_, *refused, result);
     return;
   }
   best_score_ = {};
@@ -223,8 +221,8 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
 int SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,
                                      const PlanRequest& request, PlanResult& result) const {
   if (!request.keep_candidates) return -1;
-  result.candidates.push_back({kind, score.total(), std::min(score.chance, 1.0), false,
-                               to_trajectory(roll_out, request.time, settings_)});
+  result.candidates.push_back(
+      {kind, score.total(), 0.0, false, to_trajectory(roll_out, request.time, settings_)});
   return static_cast<int>(result.candidates.size()) - 1;
 }
 
@@ -260,7 +258,6 @@ void SpaceTimePlanner::finish(const PlanRequest& request, PlanResult& result) {
     const bool smooth = smooth_best(request, result);
     result.trajectory = smooth ? smooth_ : to_trajectory(best_, request.time, settings_);
   }
-  result.risk = std::min(best_score_.chance, 1.0);
   judge_.judge(request, drive_end_, result);
   if (best_candidate_ >= 0) result.candidates[static_cast<std::size_t>(best_candidate_)].chosen = true;
 }

@@ -21,18 +21,16 @@ class SpaceTimePlanner final : public Planner {
   SpaceTimePlanner(const SpaceTimeParameters& parameters, const PlannerParameters& planner,
                    const RobotParameters& robot);
 
-  /// The current plan is kept while it is the best. The risk in the result is discounted and weighted as in
-  /// the choice. The outcome is that of the clearance check (PlanJudge); a choice that fails it is driven all
-  /// the same, as the one with the least cost.
+  /// The current plan is kept while it is the best. The outcome is that of the clearance check (PlanJudge); a
+  /// choice that fails it is driven all the same, as the one with the least cost.
   void plan(const PlanRequest& request, PlanResult& result) override;
 
  private:
   /// Cost of a roll-out in seconds, split for the record.
   struct Score {
-    double time = 0.0;    ///< [s] travel time to the goal along it
-    double risk = 0.0;    ///< [s] cost of the probability of contact
-    double chance = 0.0;  ///< [1] that probability; a sum, which may exceed 1
-    int worst = -1;       ///< disc that contributes most, -1 = none
+    double time = 0.0;  ///< [s] travel time to the goal along it
+    double risk = 0.0;  ///< [s] cost of the probability of contact, discounted and weighted
+    int worst = -1;     ///< disc that contributes most, -1 = none
     [[nodiscard]] double total() const { return time + risk; }
   };
   [[nodiscard]] Score score(const RollOut& roll_out, const PlanRequest& request, double enough) const;

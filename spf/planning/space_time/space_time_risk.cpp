@@ -15,10 +15,6 @@ constexpr double kNegligibleSigmas =
 
 }  // namespace
 
-double overlap_probability(double distance, double radius, double sigma) {
-  return normal_tail((distance - radius) / sigma) * normal_within(radius / sigma);
-}
-
 SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed)
     : parameters_{parameters},
       robot_radius_{robot_radius},

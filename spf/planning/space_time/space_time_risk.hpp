@@ -13,10 +13,6 @@
 
 namespace spf {
 
-/// Probability that a Gaussian of standard deviation sigma at distance d is within R: Phi((R - d) / sigma)
-/// erf(R / (sigma sqrt 2)). It falls again when sigma is large compared with R.
-[[nodiscard]] double overlap_probability(double distance, double radius, double sigma);
-
 /// Obstacles and peers of one planning call, tabulated over the horizon.
 class SpaceTimeRisk {
  public:

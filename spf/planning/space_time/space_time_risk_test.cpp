@@ -47,35 +47,6 @@ double standing_risk(const SpaceTimeRisk& risk, const Eigen::Vector2d& position)
   return risk.along(standing_at(position), risk.steps(), position, 1e9);
 }
 
-// The formula is an approximation of the chance that a two-dimensional Gaussian lies in a disc: compare it
-// with that chance by Monte Carlo. The approximation error, at most 0.12 over this range, is a known property
-// of the formula.
-TEST(OverlapProbability, IsCloseToTheChanceOfADiscUnderAGaussian) {
-  RandomStream random{5};
-  for (int i = 0; i < 60; ++i) {
-    const double radius = random.uniform(0.5, 1.0);
-    const double sigma = random.uniform(0.03, 0.6);
-    const double distance = random.uniform(0.0, 2.0);
-    int inside = 0;
-    const int n = 4000;
-    for (int k = 0; k < n; ++k) {
-      inside += (sigma * random.normal2() + Eigen::Vector2d{distance, 0.0}).norm() < radius ? 1 : 0;
-    }
-    const double chance = static_cast<double>(inside) / n;
-    EXPECT_NEAR(overlap_probability(distance, radius, sigma), chance, 0.12)
-        << "R " << radius << " sigma " << sigma << " d " << distance;
-  }
-}
-
-TEST(OverlapProbability, FallsWithDistance) {
-  double last = 1.0;
-  for (double distance = 0.0; distance < 3.0; distance += 0.1) {
-    const double now = overlap_probability(distance, 0.8, 0.3);
-    EXPECT_LT(now, last);
-    last = now;
-  }
-}
-
 TEST(SpaceTimeRisk, LeavesOutWhatCannotComeNear) {
   RiskScene scene;
   scene.tracks.push_back(track_at(3, {2.0, 0.0}, {0.0, 0.0}));
