@@ -5,13 +5,12 @@
 
 #include "host/contradictions.hpp"
 #include "spf_empc_ros/conversions.hpp"
+#include "spf_empc_ros/transport.hpp"
 
 namespace spf_empc_ros {
 namespace {
 
 constexpr double kReportPeriod = 0.1;  // [s] what changes is said so soon
-const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
-
 }  // namespace
 
 PerceptionNode::PerceptionNode(ros::NodeHandle node, const RobotConfig& config, const ros::Time& start)
@@ -22,9 +21,9 @@ PerceptionNode::PerceptionNode(ros::NodeHandle node, const RobotConfig& config, 
       frames_{config.agent.team.stale_time},
       diagnostics_{node_, config_, "perception", clock_} {
   observation_ = node_.advertise<spf_empc_msgs::Observation>("observation", 10);
-  subscribers_ = {node_.subscribe("scan", 2, &PerceptionNode::on_scan, this, kNoDelay),
-                  node_.subscribe("obstacles", 5, &PerceptionNode::on_obstacles, this, kNoDelay),
-                  node_.subscribe("wheel_speeds", 5, &PerceptionNode::on_wheels, this, kNoDelay)};
+  subscribers_ = {node_.subscribe("scan", 2, &PerceptionNode::on_scan, this, no_delay()),
+                  node_.subscribe("obstacles", 5, &PerceptionNode::on_obstacles, this, no_delay()),
+                  node_.subscribe("wheel_speeds", 5, &PerceptionNode::on_wheels, this, no_delay())};
   timer_ = node_.createTimer(ros::Duration{kReportPeriod}, [this](const ros::TimerEvent&) { report(); });
 }
 

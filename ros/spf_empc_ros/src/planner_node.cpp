@@ -12,6 +12,7 @@
 #include "config/parameter_text.hpp"
 #include "spf_empc_ros/conversions.hpp"
 #include "spf_empc_ros/display.hpp"
+#include "spf_empc_ros/transport.hpp"
 
 namespace spf_empc_ros {
 namespace {
@@ -20,8 +21,6 @@ constexpr double kStepPeriod = 0.01;    // [s] as fast as poses come
 constexpr double kPicturePeriod = 0.2;  // [s]
 constexpr double kGridPeriod = 1.0;     // [s]
 constexpr double kStatusPeriod = 0.5;   // [s] while there is no agent
-const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
-
 bool same_cells(const nav_msgs::OccupancyGrid& one, const nav_msgs::OccupancyGrid& other) {
   return one.header.frame_id == other.header.frame_id && one.info.resolution == other.info.resolution &&
          one.info.width == other.info.width && one.info.height == other.info.height &&
@@ -72,10 +71,10 @@ PlannerNode::PlannerNode(ros::NodeHandle node, const RobotConfig& config, const 
   pictures_.markers = node_.advertise<visualization_msgs::MarkerArray>("markers", 2);
   pictures_.grid = node_.advertise<nav_msgs::OccupancyGrid>("grid", 1, true);
   pictures_.tracks = node_.advertise<spf_empc_msgs::ObstacleTracks>("tracks", 5);
-  subscribers_ = {node_.subscribe("odom", 50, &PlannerNode::on_pose, this, kNoDelay),
-                  node_.subscribe("wheel_speeds", 20, &PlannerNode::on_wheels, this, kNoDelay),
-                  node_.subscribe("observation", 10, &PlannerNode::on_observation, this, kNoDelay),
-                  node_.subscribe("/swarm/trajectories", 200, &PlannerNode::on_peer, this, kNoDelay),
+  subscribers_ = {node_.subscribe("odom", 50, &PlannerNode::on_pose, this, no_delay()),
+                  node_.subscribe("wheel_speeds", 20, &PlannerNode::on_wheels, this, no_delay()),
+                  node_.subscribe("observation", 10, &PlannerNode::on_observation, this, no_delay()),
+                  node_.subscribe("/swarm/trajectories", 200, &PlannerNode::on_peer, this, no_delay()),
                   node_.subscribe("/map", 1, &PlannerNode::on_map, this)};
   timer_ = node_.createTimer(ros::Duration{kStepPeriod}, [this](const ros::TimerEvent&) { step(); });
 }

@@ -6,11 +6,10 @@
 #include <spf_empc_msgs/WheelSpeeds.h>
 
 #include "spf_empc_ros/conversions.hpp"
+#include "spf_empc_ros/transport.hpp"
 
 namespace spf_empc_ros {
 namespace {
-
-const ros::TransportHints kNoDelay = ros::TransportHints().tcpNoDelay();
 
 geometry_msgs::Pose2D pose2d(double x, double y, double theta) {
   geometry_msgs::Pose2D pose;
@@ -47,11 +46,11 @@ TrackerNode::TrackerNode(ros::NodeHandle node, const RobotConfig& config, const 
   wheel_speeds_ = node_.advertise<spf_empc_msgs::WheelSpeeds>("wheel_speeds", 1);
   estimate_ = node_.advertise<nav_msgs::Odometry>("estimate", 5);
   status_ = node_.advertise<spf_empc_msgs::TrackerStatus>("tracker_status", 20);
-  subscribers_ = {node_.subscribe("odom", 20, &TrackerNode::on_pose, this, kNoDelay),
-                  node_.subscribe("trajectory", 5, &TrackerNode::on_plan, this, kNoDelay),
-                  node_.subscribe("status", 2, &TrackerNode::on_planner, this, kNoDelay)};
+  subscribers_ = {node_.subscribe("odom", 20, &TrackerNode::on_pose, this, no_delay()),
+                  node_.subscribe("trajectory", 5, &TrackerNode::on_plan, this, no_delay()),
+                  node_.subscribe("status", 2, &TrackerNode::on_planner, this, no_delay())};
   if (host_.tracker().guard() != nullptr)
-    subscribers_.push_back(node_.subscribe("scan", 2, &TrackerNode::on_scan, this, kNoDelay));
+    subscribers_.push_back(node_.subscribe("scan", 2, &TrackerNode::on_scan, this, no_delay()));
   timer_ = node_.createTimer(ros::Duration{config_.agent.tracker.control_period},
                              [this](const ros::TimerEvent&) { step(); });
 }
