@@ -10,24 +10,20 @@
 
 namespace spf::sim {
 
-namespace {
-
-/// What stands between the world and one robot.
-struct Desk {
-  RobotInput input;                       // of this tick
-  std::deque<host::SensedWorld> waiting;  // not yet given to the robot
-  std::vector<host::SensedWorld> spare;   // kept for its memory
-  RobotAction action;                     // of this tick
-  std::optional<HeardMessage> told;       // likewise
-  double plan_seconds = 0.0;              // of the call, with what it had to take in
-  double control_seconds = 0.0;           // likewise
-  double world_seconds = 0.0;             // taking in the world since the last plan
-  double pose_seconds = 0.0;              // taking in poses since the last control tick
-};
-
-}  // namespace
-
 struct Simulation::Implementation {
+  /// What stands between the world and one robot.
+  struct Desk {
+    RobotInput input;                       // of this tick
+    std::deque<host::SensedWorld> waiting;  // not yet given to the robot
+    std::vector<host::SensedWorld> spare;   // kept for its memory
+    RobotAction action;                     // of this tick
+    std::optional<HeardMessage> told;       // likewise
+    double plan_seconds = 0.0;              // of the call, with what it had to take in
+    double control_seconds = 0.0;           // likewise
+    double world_seconds = 0.0;             // taking in the world since the last plan
+    double pose_seconds = 0.0;              // taking in poses since the last control tick
+  };
+
   Implementation(const Scenario& scenario, const AgentParameters& agent,
                  const SimulationOptions& given_options);
 

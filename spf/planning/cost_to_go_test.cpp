@@ -118,11 +118,11 @@ double nearest_surface(const Eigen::Vector2d& p, const std::vector<Box>& boxes) 
   return nearest;
 }
 
-constexpr double kRadius = 0.2;  // [m] of the robot, whose centre keeps 0.35 m then
+constexpr double kBodyRadius = 0.2;  // [m] of the robot, whose centre keeps 0.35 m then
 
 TEST(CostToGoSlow, MatchesTheVisibilityGraph) {
   const CostToGoParameters parameters;
-  const double clearance = parameters.clearance + kRadius;
+  const double clearance = parameters.clearance + kBodyRadius;
   double sum = 0.0;
   int compared = 0;
   int beyond_two_percent = 0;
@@ -135,7 +135,7 @@ TEST(CostToGoSlow, MatchesTheVisibilityGraph) {
       goal.y() = random.uniform(-7.0, 7.0);
     } while (nearest_surface(goal, boxes) < clearance + 0.05);
     const OccupancyMap map = map_with(boxes);
-    CostToGo guide{parameters, kRadius};
+    CostToGo guide{parameters, kBodyRadius};
     (void)guide.update(map, goal, {0.0, 0.0});
     const VisibilityGraph oracle{boxes, goal, clearance};
     for (int k = 0; k < 60; ++k) {
@@ -164,7 +164,7 @@ const std::vector<Box> kUShape = {
 
 TEST(CostToGo, IsTheStraightDistanceWhereTheGoalIsInView) {
   const OccupancyMap map = map_with(kUShape);
-  CostToGo guide{CostToGoParameters{}, kRadius};
+  CostToGo guide{CostToGoParameters{}, kBodyRadius};
   const Eigen::Vector2d goal{5.03, -1.17};
   ASSERT_EQ(guide.update(map, goal, {0.0, 0.0}), CostToGoOutcome::reachable);
   for (const Eigen::Vector2d& position : {Eigen::Vector2d{5.0, 3.0}, {3.1, -5.2}, {7.3, 0.4}, goal}) {
@@ -177,7 +177,7 @@ TEST(CostToGo, IsTheStraightDistanceWhereTheGoalIsInView) {
 
 TEST(CostToGo, LeadsOutOfAUShapeAlongClearGround) {
   const OccupancyMap map = map_with(kUShape);
-  CostToGo guide{CostToGoParameters{}, kRadius};
+  CostToGo guide{CostToGoParameters{}, kBodyRadius};
   const Eigen::Vector2d goal{5.0, 0.5};
   const Eigen::Vector2d start{1.0, 0.0};
   ASSERT_EQ(guide.update(map, goal, start), CostToGoOutcome::reachable);
@@ -205,7 +205,7 @@ TEST(CostToGo, CostIsContinuousAndItsGradientExact) {
   RandomStream random{3};
   const std::vector<Box> boxes = draw_boxes(random, 6);
   const OccupancyMap map = map_with(boxes);
-  CostToGo guide{CostToGoParameters{}, kRadius};
+  CostToGo guide{CostToGoParameters{}, kBodyRadius};
   ASSERT_NE(guide.update(map, {6.9, 6.9}, {-6.0, -6.0}), CostToGoOutcome::no_free_goal);
   const double step = 1e-6;
   for (int k = 0; k < 2000; ++k) {
@@ -229,7 +229,7 @@ TEST(CostToGo, CostIsContinuousAndItsGradientExact) {
 
 TEST(CostToGo, MovesAGoalOnBlockedGroundAndSaysSo) {
   const OccupancyMap map = map_with({{{-1.0, -1.0}, {1.0, 1.0}}});
-  CostToGo guide{CostToGoParameters{}, kRadius};
+  CostToGo guide{CostToGoParameters{}, kBodyRadius};
   EXPECT_EQ(guide.update(map, {0.9, 0.0}, {-4.0, 0.0}), CostToGoOutcome::goal_moved);
   EXPECT_NEAR(guide.goal_used().x(), 1.4, 1e-6);  // the nearest node that keeps 0.35 m
   EXPECT_NEAR(guide.goal_used().y(), 0.0, 1e-6);
@@ -241,7 +241,7 @@ TEST(CostToGo, ReportsAClosedRoomButStillLeadsTowardsTheGoal) {
                                      {{-2.0, 1.8}, {2.0, 2.0}},
                                      {{-2.0, -2.0}, {-1.8, 2.0}},
                                      {{1.8, -2.0}, {2.0, 2.0}}});
-  CostToGo guide{CostToGoParameters{}, kRadius};
+  CostToGo guide{CostToGoParameters{}, kBodyRadius};
   EXPECT_EQ(guide.update(map, {6.0, 0.0}, {0.0, 0.0}), CostToGoOutcome::unreachable);
   EXPECT_FALSE(guide.reachable({0.0, 0.0}));
   EXPECT_TRUE(guide.reachable({-6.0, 0.0}));
@@ -253,7 +253,7 @@ TEST(CostToGo, FindsDetoursOutsideTheWindow) {
   CostToGoParameters parameters;
   parameters.window_margin = 1.0;
   const OccupancyMap map = map_with({{{-0.2, -6.0}, {0.2, 8.0}}});  // the only path round is at the far end
-  CostToGo guide{parameters, kRadius};
+  CostToGo guide{parameters, kBodyRadius};
   EXPECT_EQ(guide.update(map, {2.0, 5.0}, {-2.0, 5.0}), CostToGoOutcome::reachable);
   const double expected = 2.0 * std::hypot(1.8, 11.0);  // a little longer: around the corner at 0.35 m
   EXPECT_NEAR(guide.cost_to_go({-2.0, 5.0}), expected + 1.0, 0.5);
@@ -261,7 +261,7 @@ TEST(CostToGo, FindsDetoursOutsideTheWindow) {
 
 TEST(CostToGo, KnowsWhenItIsOutdated) {
   OccupancyMap map = map_with(kUShape);
-  CostToGo guide{CostToGoParameters{}, kRadius};
+  CostToGo guide{CostToGoParameters{}, kBodyRadius};
   EXPECT_TRUE(guide.outdated(map, {5.0, 0.0}, {0.0, 0.0}));
   (void)guide.update(map, {5.0, 0.0}, {0.0, 0.0});
   EXPECT_FALSE(guide.outdated(map, {5.0, 0.0}, {0.0, 0.0}));
@@ -273,7 +273,7 @@ TEST(CostToGo, KnowsWhenItIsOutdated) {
 TEST(CostToGo, HasAnAnswerForHopelessInput) {
   OccupancyMap full{GridFrame::covering({-1.0, -1.0}, {1.0, 1.0}, 0.1), 1.0};
   full.add_box({-3.0, -3.0}, {3.0, 3.0});
-  CostToGo guide{CostToGoParameters{}, kRadius};
+  CostToGo guide{CostToGoParameters{}, kBodyRadius};
   EXPECT_EQ(guide.update(full, {0.0, 0.0}, {0.5, 0.5}), CostToGoOutcome::no_free_goal);
   EXPECT_FALSE(guide.ready());
   EXPECT_EQ(guide.update(map_with({}), {std::nan(""), 0.0}, {0.5, 0.5}), CostToGoOutcome::no_free_goal);

@@ -8,13 +8,13 @@ namespace spf {
 namespace {
 
 /// A run of 4 m with a half plane across the path and a further term of the caller.
-struct Fixture {
+struct OptimizerScene {
   std::vector<GuidePair> pairs;
   std::vector<MovingDisc> discs;
   TrajectoryProblem problem;
   TrajectorySeed seed;
 
-  Fixture() {
+  OptimizerScene() {
     seed.resize(4);
     for (int i = 0; i < 4; ++i) {
       seed.durations[i] = 1.5;
@@ -32,7 +32,7 @@ struct Fixture {
 };
 
 TEST(TrajectoryOptimizer, LowersTheCostAndHeedsItsTerms) {
-  Fixture f;
+  OptimizerScene f;
   TrajectoryOptimizer optimizer{PlannerParameters{}, RobotParameters{}};
   optimizer.set(f.problem, f.seed);
   const DecisionLayout layout{4};
@@ -50,7 +50,7 @@ TEST(TrajectoryOptimizer, LowersTheCostAndHeedsItsTerms) {
 }
 
 TEST(TrajectoryOptimizer, StaysWithinTheDeadlineOfARun) {
-  Fixture f;
+  OptimizerScene f;
   PlannerParameters parameters;
   parameters.run_evaluations = 7;
   TrajectoryOptimizer optimizer{parameters, RobotParameters{}};
@@ -58,7 +58,7 @@ TEST(TrajectoryOptimizer, StaysWithinTheDeadlineOfARun) {
 }
 
 TEST(TrajectoryOptimizer, GivesBackAPointWhenTheHookCancels) {
-  Fixture f;
+  OptimizerScene f;
   TrajectoryOptimizer optimizer{PlannerParameters{}, RobotParameters{}};
   int calls = 0;
   const OptimizerResult result = optimizer.optimise(f.problem, f.seed, [&](const NodeSet& nodes) {
@@ -80,7 +80,7 @@ TEST(TrajectoryOptimizer, FollowsATermOfTheCallersOwn) {
       nodes.penalty(k).wrt_position.y() -= 2000.0 * lack;
     }
   };
-  Fixture f;
+  OptimizerScene f;
   f.problem.extra = NodeTermRef{pull};
   TrajectoryOptimizer optimizer{PlannerParameters{}, RobotParameters{}};
   optimizer.optimise(f.problem, f.seed);
@@ -88,7 +88,7 @@ TEST(TrajectoryOptimizer, FollowsATermOfTheCallersOwn) {
 }
 
 TEST(TrajectoryOptimizer, DoesNotAllocate) {
-  const Fixture f;
+  const OptimizerScene f;
   TrajectoryOptimizer optimizer{PlannerParameters{}, RobotParameters{}};
   const AllocationGuard guard;
   optimizer.optimise(f.problem, f.seed);

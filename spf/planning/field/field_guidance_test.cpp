@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSafety = 0.2;
 
-struct Fixture {
+struct FieldGuidanceScene {
   TrajectoryOptimizer optimizer{PlannerParameters{}, RobotParameters{}};
   FieldGuidance guidance{kSafety, 0.7};
   std::vector<DangerRegion> regions;
@@ -55,7 +55,7 @@ struct Fixture {
 };
 
 TEST(FieldGuidance, FindsOneConflictPerObstacleInTheOrderOfTheWay) {
-  Fixture f;
+  FieldGuidanceScene f;
   f.run_at(0.0);
   f.add_region(7, {4.5, 0.2}, {0.0, 0.0});
   f.add_region(8, {1.5, -0.1}, {0.0, -0.3});
@@ -72,7 +72,7 @@ TEST(FieldGuidance, GuidePointsLieOnTheEllipseOnTheChosenSide) {
   for (const double y : {-0.3, 0.0, 0.25}) {
     for (const PassingSide side : {PassingSide::left, PassingSide::right}) {
       SCOPED_TRACE(testing::Message() << "y " << y << " side " << static_cast<int>(side));
-      Fixture f;
+      FieldGuidanceScene f;
       f.run_at(y);
       f.add_region(1, {3.0, 0.0}, {-0.5, 0.2});
       f.make(side);
@@ -100,7 +100,7 @@ TEST(FieldGuidance, GuidePointsLieOnTheEllipseOnTheChosenSide) {
 
 TEST(FieldGuidance, TheOtherSideIsTheMirrorImage) {
   // A field symmetric to the line of the run: both candidates must mirror each other exactly.
-  Fixture f;
+  FieldGuidanceScene f;
   f.run_at(0.0);
   f.add_region(1, {3.0, 0.0}, {-0.6, 0.0});
   f.make(PassingSide::left);
@@ -122,7 +122,7 @@ TEST(FieldGuidance, TheOtherSideIsTheMirrorImage) {
 
 TEST(FieldGuidance, BothSidesOfADiscAreFoundByTheOptimiser) {
   for (const PassingSide side : {PassingSide::left, PassingSide::right}) {
-    Fixture f;
+    FieldGuidanceScene f;
     f.run_at(0.1);
     f.add_region(1, {3.0, 0.0}, {-0.3, 0.0});
     f.make(side);
@@ -146,7 +146,7 @@ TEST(FieldGuidance, BothSidesOfADiscAreFoundByTheOptimiser) {
 
 TEST(FieldGuidance, PassesBehindAnObstacleThatCrossesHeadOn) {
   // The line runs through the centre of the field: the gradients are neutral.
-  Fixture f;
+  FieldGuidanceScene f;
   f.run_at(0.0);
   ObstacleState obstacle{{3.0, 0.0}, {0.0, 0.8}, 0.4};
   obstacle.position_world -= 0.5 * obstacle.velocity_world;  // the centre comes to lie on the line

@@ -10,7 +10,7 @@
 namespace spf {
 namespace {
 
-struct Fixture {
+struct GuidePairsScene {
   PlannerParameters planner;
   RobotParameters robot;
   OccupancyMap map{GridFrame::covering({-6.0, -6.0}, {6.0, 6.0}, 0.1), 2.0};
@@ -61,7 +61,7 @@ struct Fixture {
 };
 
 TEST(GuidePairs, NothingInTheWayNeedsNone) {
-  Fixture f;
+  GuidePairsScene f;
   f.map.add_box({-1.0, 2.0}, {1.0, 4.0});
   f.begin();
   f.straight({-4.0, 0.0}, {4.0, 0.0}, 5);
@@ -71,7 +71,7 @@ TEST(GuidePairs, NothingInTheWayNeedsNone) {
 }
 
 TEST(GuidePairs, StandOnTheSurfaceAndPointToTheWayRound) {
-  Fixture f;
+  GuidePairsScene f;
   f.map.add_box({-1.0, -1.5}, {1.0, 1.0});  // the shorter detour is above
   f.begin();
   f.straight({-4.0, 0.0}, {4.0, 0.0}, 5);
@@ -89,7 +89,7 @@ TEST(GuidePairs, LeadTheOptimiserRoundABox) {
   for (const double low : {-1.5, -1.1, -0.9}) {
     for (const double width : {0.15, 1.0, 2.0}) {
       SCOPED_TRACE(testing::Message() << "low " << low << " width " << width);
-      Fixture f;
+      GuidePairsScene f;
       f.map.add_box({-0.5 * width, low}, {0.5 * width, 1.0});
       f.begin();
       f.straight({-4.0, 0.0}, {4.0, 0.0}, 5);
@@ -105,7 +105,7 @@ TEST(GuidePairs, LeadTheOptimiserRoundABox) {
 }
 
 TEST(GuidePairs, AnEndInsideAnObstacleIsACollision) {
-  Fixture f;
+  GuidePairsScene f;
   f.map.add_box({3.0, -2.0}, {5.0, 2.0});
   f.begin();
   f.straight({-4.0, 0.0}, {4.0, 0.0}, 5);
@@ -113,7 +113,7 @@ TEST(GuidePairs, AnEndInsideAnObstacleIsACollision) {
 }
 
 TEST(GuidePairs, NoWayRoundIsReported) {
-  Fixture f;
+  GuidePairsScene f;
   f.map.add_box({0.0, -7.0}, {0.5, 7.0});
   f.begin();
   f.straight({-4.0, 0.0}, {4.0, 0.0}, 5);
@@ -121,7 +121,7 @@ TEST(GuidePairs, NoWayRoundIsReported) {
 }
 
 TEST(GuidePairs, AThinObstacleBetweenTwoNodesIsSeen) {
-  Fixture f;
+  GuidePairsScene f;
   f.robot.radius = 0.02;
   f.planner.static_margin = 0.01;
   f.clearance = ClearanceModel{f.planner, f.robot, FieldParameters{}};
@@ -140,7 +140,7 @@ TEST(GuidePairs, AThinObstacleBetweenTwoNodesIsSeen) {
 }
 
 TEST(GuidePairs, ACollisionIsNewUnlessItsPairsKnowOfIt) {
-  Fixture f;
+  GuidePairsScene f;
   f.map.add_box({-1.0, -1.5}, {1.0, 1.0});
   f.begin();
   f.straight({-4.0, 0.0}, {4.0, 0.0}, 5);
