@@ -14,6 +14,8 @@ constexpr double kComplaintTime = 5.0;  // [s] for which a complaint stands
 constexpr std::size_t kMostComplaints = 32;
 constexpr double kMostAround = 1.0;  // [m] that a clock may add to a peer
 constexpr double kSameTime = 1e-6;   // [s] messages keep nanoseconds
+constexpr double kOwnPast =
+    10.0;  // [s] what was told before the start may come so late, and older is refused
 
 /// Always goes first, and is larger by what it may be away from where it says.
 HeardMessage as_of_stranger(const TrajectoryMessage& message, double clock_error) {
@@ -39,8 +41,8 @@ void PeerWatch::told(const TrajectoryMessage& message) {
   next_sent_ = (next_sent_ + 1) % sent_.size();
 }
 
-bool PeerWatch::is_own(const TrajectoryMessage& message) const {
-  if (!begun_ || message.sent_time < *begun_) return true;  // as told before it was started anew
+bool PeerWatch::is_own(const TrajectoryMessage& message, double now) const {
+  if (!begun_ || (message.sent_time < *begun_ && now - *begun_ < kOwnPast)) return true;
   return std::any_of(sent_.begin(), sent_.end(), [&](const Sent& sent) {
     return sent.sequence == message.sequence && std::abs(sent.time - message.sent_time) <= kSameTime;
   });
@@ -49,7 +51,7 @@ bool PeerWatch::is_own(const TrajectoryMessage& message) const {
 std::optional<HeardMessage> PeerWatch::admitted(const HeardMessage& message, double now) {
   if (!begun_) begun_ = now;
   if (message->robot_id == own_id_) {
-    if (is_own(message)) return std::nullopt;
+    if (is_own(message, now)) return std::nullopt;
     if (complaints_.count({own_id_, PeerFault::same_number}) == 0)
       complain(own_id_, PeerFault::same_number, "another robot has this number", now);
     else

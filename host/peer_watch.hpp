@@ -72,7 +72,7 @@ class PeerWatch {
     std::string text;
     double time = 0.0;  // [s]
   };
-  [[nodiscard]] bool is_own(const TrajectoryMessage& message) const;
+  [[nodiscard]] bool is_own(const TrajectoryMessage& message, double now) const;
 
   int own_id_;
   PeerWitness witness_;

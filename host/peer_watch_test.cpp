@@ -110,6 +110,8 @@ TEST(PeerWatch, KnowsItsOwnMessagesFromThoseOfANamesake) {
   EXPECT_EQ(watch.complaints(31.0)[0].fault, PeerFault::same_number);
   EXPECT_EQ(watch.complaints(31.0)[0].robot_id, 3);
   EXPECT_TRUE(watch.complaints(40.0).empty());
+  // One whose clock is behind by more than this robot has lived.
+  EXPECT_TRUE(watch.admitted(on_its_way(3, 5.0, {5.0, 0.0}, {0.0, 0.0}), 41.0));
 }
 
 TEST(PeerWatch, ComplainsOfABoundedNumber) {

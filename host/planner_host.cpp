@@ -141,8 +141,10 @@ bool PlannerHost::set_goal(const Goal& goal) {
     ++counts_.inputs_refused;
     return false;
   }
+  const bool repeated =
+      goal_ && goal_->position_world == goal.position_world && goal_->heading == goal.heading;
   goal_ = goal;
-  recovery_.begin_anew();
+  if (!repeated) recovery_.begin_anew();
   if (agent_) tell_goal();
   return true;
 }
@@ -155,9 +157,9 @@ void PlannerHost::cancel() {
 
 void PlannerHost::reconfigure(const AgentParameters& agent) {
   refuse_contradictions(contradictions(validated(agent), host_));
+  if (agent_) agent_->reconfigure(agent);  // may refuse: the rest then stays as it was
   agent_parameters_ = agent;
   recovery_.reconfigure(agent);
-  if (agent_) agent_->reconfigure(agent_parameters_);
 }
 
 PlannerCounts PlannerHost::counts() const {

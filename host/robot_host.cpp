@@ -34,7 +34,7 @@ void RobotHost::start(const OccupancyMap& map, const Pose2& pose_world, double n
 PoseVerdict RobotHost::add_pose(const PoseMeasurement& pose, double now) {
   const PoseVerdict verdict = localiser_.add_pose(pose, tell_time(now));
   planner_.note_pose(pose, verdict, localiser_);
-  tracker_.note_pose(verdict);
+  tracker_.note_pose(verdict, now);
   return verdict;
 }
 

@@ -58,7 +58,7 @@ class TrackerProcess {
 
   PoseVerdict add_pose(const PoseMeasurement& pose, double now) {
     const PoseVerdict verdict = localiser_.add_pose(pose, tell_time(now));
-    tracker_.note_pose(verdict);
+    tracker_.note_pose(verdict, now);
     return verdict;
   }
   PlanVerdict add_plan(const TrajectoryMessage& message, double now) {

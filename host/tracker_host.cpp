@@ -45,13 +45,14 @@ TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostP
   if (host.guard.enabled) guard_ = std::make_unique<ScanGuard>(host.guard, agent, host.clock_error);
 }
 
-void TrackerHost::note_pose(PoseVerdict verdict) {
+void TrackerHost::note_pose(PoseVerdict verdict, double now) {
   if (verdict != PoseVerdict::relocalised) return;
   // It is somewhere else than it was thought to be: neither its plan nor a braking under way leads on from
   // there. It brakes where it is, and waits for a plan that begins there.
   controller_.reset();
   has_plan_ = false;
   braking_.reset();
+  relocalised_ = now;
 }
 
 PlanVerdict TrackerHost::add_plan(const TrajectoryMessage& message, double now) {
@@ -72,6 +73,7 @@ PlanVerdict TrackerHost::judge(const TrajectoryMessage& message, double now) con
   const double latest = now + clock_error_;
   if (message.sent_time > latest || message.trajectory.start_time() > latest) return PlanVerdict::future;
   if (has_plan_ && message.sent_time <= plan_.sent_time) return PlanVerdict::late;
+  if (message.sent_time < relocalised_) return PlanVerdict::late;
   return PlanVerdict::accepted;
 }
 
@@ -82,6 +84,7 @@ double TrackerHost::plan_age(double now) const {
 void TrackerHost::meet_clock_jump() {
   controller_.reset();
   has_plan_ = false;
+  relocalised_ = kNever;
   after_jump_ = true;
   braking_.reset();
   last_step_time_ = kNever;

@@ -54,7 +54,7 @@ class TrackerHost {
   /// The host could not even read a plan.
   void count_refused_plan() { ++plans_refused_; }
   /// What the Localiser said of a pose.
-  void note_pose(PoseVerdict verdict);
+  void note_pose(PoseVerdict verdict, double now);
   /// Nothing known can be dated any more, but the robot still moves as it was told.
   void meet_clock_jump();
 
@@ -91,7 +91,8 @@ class TrackerHost {
   std::unique_ptr<ScanGuard> guard_;  // null: it is off
   TrajectoryMessage plan_;
   bool has_plan_ = false;
-  bool after_jump_ = false;  // of the clock, and nothing new since
+  double relocalised_ = kNever;  // [s] plans from before lead on from where it was thought to be
+  bool after_jump_ = false;      // of the clock, and nothing new since
   std::optional<Trajectory> braking_;
   double last_step_time_ = kNever;  // [s]
   Switches switches_;

@@ -54,8 +54,10 @@ TEST_P(OrdinaryTrials, NobodyIsTakenForStuckAndCommandsKeepTheLimits) {
   const RobotParameters& robot = scenario.robot;
   const OmniKinematics kinematics{robot};
   Eigen::Vector3d before = Eigen::Vector3d::Zero();  // in body
+  int commands = 0;
   for (const LoggedTick& tick : log.ticks()) {
     if (!tick.action.controlled) continue;
+    ++commands;
     const Eigen::Vector3d twist = kinematics.twist_body(tick.action.wheel_speeds);
     const Eigen::Vector3d change = twist - twist_in_body(before, kControlPeriod * before.z());
     ASSERT_LE(twist.head<2>().norm(), 1.01 * robot.max_speed) << tick.time;
@@ -65,6 +67,7 @@ TEST_P(OrdinaryTrials, NobodyIsTakenForStuckAndCommandsKeepTheLimits) {
     ASSERT_LE(tick.action.wheel_speeds.lpNorm<Eigen::Infinity>(), (1.0 + 1e-9) * robot.max_wheel_speed);
     before = twist;
   }
+  EXPECT_GT(commands, 100);
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ Converted<Placement> placement(const tf2::BufferCore& transforms, const std::str
     result.by_itself = newest.header.stamp.isZero();  // all on the way are static
     const geometry_msgs::TransformStamped found = known ? transforms.lookupTransform(to, from, time) : newest;
     if (!known && !result.by_itself && !time.isZero())
-      result.age = std::abs((time - newest.header.stamp).toSec());
+      // Not by ros::Duration, which throws where stamps are more than 68 years apart.
+      result.age = std::abs(time.toSec() - newest.header.stamp.toSec());
     result.pose.position.x = found.transform.translation.x;
     result.pose.position.y = found.transform.translation.y;
     result.pose.position.z = found.transform.translation.z;

@@ -58,6 +58,8 @@ TEST_F(Transforms, SayHowOldTheyAre) {
     EXPECT_NEAR(placed->age, late, 1e-6);
     EXPECT_NEAR(placed->pose.position_world.x(), 1.2, 1e-9);
   }
+  // However far: a stamp may be the largest there is.
+  EXPECT_GT(placement(buffer, "odom", "map", ros::TIME_MAX)->age, 4e9);
   // Before the first one was heard, too.
   EXPECT_NEAR(placement(buffer, "odom", "map", ros::Time{99.5})->age, 2.5, 1e-6);
 }

@@ -7,6 +7,7 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -41,10 +42,11 @@ class GoalMemory {
  private:
   ParameterStore& store_;
   std::string frame_;
-  double longest_absence_;    // [s]
-  XmlRpc::XmlRpcValue left_;  // by the process before this one
-  std::string heard_;         // by it, until this one has heard anything
-  XmlRpc::XmlRpcValue kept_;  // by this one; invalid: nothing
+  double longest_absence_;                     // [s]
+  XmlRpc::XmlRpcValue left_;                   // by the process before this one
+  std::map<std::string, std::string> before_;  // by it of each publisher, until this one has heard of that
+  std::map<std::string, std::string> heard_;   // by this one
+  XmlRpc::XmlRpcValue kept_;                   // by this one; invalid: nothing
   ros::WallTime next_sign_of_life_;
 };
 
