@@ -13,8 +13,8 @@ from spf_empc_msgs.msg import TrackerStatus, Trajectory
 from robot_world import Robot, World, drive, wait_until
 
 CONFIG = """\
-agent: {team: {plan_period: 1.0}}
-host: {plan_silence: 3.0, relies_on_obstacles: false}
+agent: {team: {plan_period: 0.5}}
+host: {plan_silence: 1.5, relies_on_obstacles: false}
 """
 SCANS = 50
 SAME = 1e-4  # [s] within which two stamps are one
@@ -28,6 +28,7 @@ class Arrivals(unittest.TestCase):
         cls.config = file.name
         cls.robot = Robot(0, -30.0)
         cls.robot.obstacles_on = False
+        cls.robot.walkers = [(0.25, lambda now: (0.0, 50.0))]  # out of sight: for the scanner's finer beams
         cls.plans, cls.commands = [], []  # (what was observed [s], message)
         rospy.Subscriber("/robot0/trajectory", Trajectory,
                          lambda m: cls.plans.append(m.observed.to_sec()), tcp_nodelay=True)
