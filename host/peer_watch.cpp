@@ -14,6 +14,7 @@ constexpr double kComplaintTime = 5.0;  // [s] for which a complaint stands
 constexpr std::size_t kMostComplaints = 32;
 constexpr double kMostAround = 1.0;  // [m] that a clock may add to a peer
 constexpr double kSameTime = 1e-6;   // [s] messages keep nanoseconds
+constexpr std::size_t kMostSent = 64;
 constexpr double kOwnPast =
     10.0;  // [s] what was told before the start may come so late, and older is refused
 
@@ -37,6 +38,7 @@ std::string clock_text(double error) {
 }  // namespace
 
 void PeerWatch::told(const TrajectoryMessage& message) {
+  if (sent_.empty()) return;
   sent_[next_sent_] = {message.sequence, message.sent_time};
   next_sent_ = (next_sent_ + 1) % sent_.size();
 }
@@ -50,6 +52,7 @@ bool PeerWatch::is_own(const TrajectoryMessage& message, double now) const {
 
 std::optional<HeardMessage> PeerWatch::admitted(const HeardMessage& message, double now) {
   if (!begun_) begun_ = now;
+  sent_.resize(kMostSent);
   if (message->robot_id == own_id_) {
     if (is_own(message, now)) return std::nullopt;
     if (complaints_.count({own_id_, PeerFault::same_number}) == 0)

@@ -4,7 +4,6 @@
 // host's [s].
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -77,7 +76,7 @@ class PeerWatch {
   int own_id_;
   PeerWitness witness_;
   PeerClocks clocks_;
-  std::array<Sent, 64> sent_{};  // the last, to know them when they come back
+  std::vector<Sent> sent_;  // the last, to know them when they come back; none before anything is heard
   std::size_t next_sent_ = 0;
   std::optional<double> begun_;  // [s] what was sent under its number before is of its own past
   std::map<std::pair<int, PeerFault>, Told> complaints_;

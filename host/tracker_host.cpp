@@ -181,7 +181,7 @@ void TrackerHost::brake(double now, const MotionState& state) {
     const double heading = command_.estimate.pose_world.heading;
     const Eigen::Vector3d twist = kinematics_.twist_world(state.command, heading);
     const FlatState head{here, twist.head<2>(), Eigen::Vector2d::Zero()};
-    braking_ = braking_trajectory(head, {heading, twist.z()}, now, robot_);
+    braking_ = std::make_unique<Trajectory>(braking_trajectory(head, {heading, twist.z()}, now, robot_));
   }
   const bool moving = command_.estimate.valid && !state.command.isZero() &&
                       now < std::max(braking_->end_time(),

@@ -91,10 +91,10 @@ class TrackerHost {
   std::unique_ptr<ScanGuard> guard_;  // null: it is off
   TrajectoryMessage plan_;
   bool has_plan_ = false;
-  double relocalised_ = kNever;  // [s] plans from before lead on from where it was thought to be
-  bool after_jump_ = false;      // of the clock, and nothing new since
-  std::optional<Trajectory> braking_;
-  double last_step_time_ = kNever;  // [s]
+  double relocalised_ = kNever;          // [s] plans from before lead on from where it was thought to be
+  bool after_jump_ = false;              // of the clock, and nothing new since
+  std::unique_ptr<Trajectory> braking_;  // rarely there, and large
+  double last_step_time_ = kNever;       // [s]
   Switches switches_;
   TrackerCommand command_;
   std::uint32_t plans_refused_ = 0;

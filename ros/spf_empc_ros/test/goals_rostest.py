@@ -30,7 +30,7 @@ class Action(GoalsTest):
             self.assertLess(angle_between(self.robot.heading, heading), 0.12)
             self.assertGreater(len(self.user.places), 5)
             self.assertLess(math.hypot(self.user.places[-1].x - x, self.user.places[-1].y - y), 0.5)
-            self.assertEqual(self.robot.status.reason, "arrived")
+            self.assertTrue(wait_until(lambda: self.robot.status.reason == "arrived", 1.0), self.robot.status.reason)
 
     def test_gives_up_at_once_where_the_map_forbids_the_goal(self):
         for place, reason in (((20.2, 0.0), "the goal is in a wall, or nearer to one than the robot goes"),

@@ -94,12 +94,14 @@ class Robot:
 
     @staticmethod
     def change(before, after, seconds):
-        """[m/s] from one command to the next: in the map, or as seen from the body that turns, where that is less."""
-        turn = 0.5 * (before.angular.z + after.angular.z) * min(seconds, 2.0 * PERIOD)
-        c, s = math.cos(turn), math.sin(turn)
-        x, y = c * after.linear.x - s * after.linear.y, s * after.linear.x + c * after.linear.y
-        return min(math.hypot(x - before.linear.x, y - before.linear.y),
-                   math.hypot(after.linear.x - before.linear.x, after.linear.y - before.linear.y))
+        """[m/s] from one command to the next: as seen from the body that turns, or in the map, where that is less. When a
+        command was given is known to a period, since messages take their time."""
+        def in_map(seconds):
+            turn = 0.5 * (before.angular.z + after.angular.z) * seconds
+            c, s = math.cos(turn), math.sin(turn)
+            x, y = c * after.linear.x - s * after.linear.y, s * after.linear.x + c * after.linear.y
+            return math.hypot(x - before.linear.x, y - before.linear.y)
+        return min(map(in_map, (0.0, PERIOD, min(seconds, 2.0 * PERIOD))))
 
     def largest_change(self):
         """[m/s] of all commands but those that the guard held back."""
