@@ -1,16 +1,13 @@
 #!/usr/bin/python3
 """A planner whose period is long plans when something is observed all the same: every scan has a plan that knows it and a
 command that follows. What peers tell brings no plan forward. Counted, not timed: scan_latency.py measures."""
-import os
 import sys
-import tempfile
-import unittest
 
 import rospy
 import rostest
 from spf_empc_msgs.msg import TrackerStatus, Trajectory
 
-from robot_world import Robot, World, drive, wait_until
+from robot_world import ScannerAloneTest, drive, wait_until
 
 CONFIG = """\
 agent: {team: {plan_period: 0.5}}
@@ -20,31 +17,22 @@ SCANS = 50
 SAME = 1e-4  # [s] within which two stamps are one
 
 
-class Arrivals(unittest.TestCase):
+class Arrivals(ScannerAloneTest):
+    start = -30.0
+    config = CONFIG
+
     @classmethod
-    def setUpClass(cls):
-        with tempfile.NamedTemporaryFile("w", suffix=".yaml", delete=False) as file:
-            file.write(CONFIG)
-        cls.config = file.name
-        cls.robot = Robot(0, -30.0)
-        cls.robot.obstacles_on = False
-        cls.robot.walkers = [(0.25, lambda now: (0.0, 50.0))]  # out of sight: for the scanner's finer beams
+    def prepare(cls):
+        super().prepare()
         cls.plans, cls.commands = [], []  # (what was observed [s], message)
         rospy.Subscriber("/robot0/trajectory", Trajectory,
                          lambda m: cls.plans.append(m.observed.to_sec()), tcp_nodelay=True)
         rospy.Subscriber("/robot0/tracker_status", TrackerStatus, cls.on_tick, tcp_nodelay=True)
-        cls.world = World([cls.robot])
-        cls.robot.start_all("_config:=" + cls.config)
 
     @classmethod
     def on_tick(cls, message):
         if message.latency_ms >= 0.0:
             cls.commands.append(message.header.stamp.to_sec() - 1e-3 * message.latency_ms)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.world.end()
-        os.remove(cls.config)
 
     def scans(self):
         """The stamps of so many scans as they come; and what was planned meanwhile."""

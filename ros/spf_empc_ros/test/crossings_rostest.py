@@ -6,39 +6,21 @@ import math
 import os
 import random
 import sys
-import tempfile
 import time
-import unittest
 
 import rospy
 import rostest
 
-from robot_world import Robot, World, drive, wait_until
+from robot_world import NOWHERE, ScannerAloneTest, drive, wait_until
 
 REPEATS = int(os.environ.get("SPF_CROSSINGS") or 0)  # 3: 24 crossings, 12 stops
 ROBOT, DISC, PERSON = 0.3, 0.3, 0.25  # [m] radii
-NOWHERE = (0.0, 50.0)  # [m] out of sight
 DIRECTIONS = {"from the left": -90.0, "from the right": 90.0, "from ahead": 180.0, "from behind, aslant": 45.0}  # [deg]
 UNTIL = 4.0  # [s] before they would meet, something comes
 
 
-class Crossings(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        with tempfile.NamedTemporaryFile("w", suffix=".yaml", delete=False) as file:
-            file.write("host: {relies_on_obstacles: false}\n")
-        cls.config = file.name
-        cls.chance = random.Random(7)
-        cls.robot = Robot(0)
-        cls.robot.obstacles_on = False
-        cls.robot.walkers = [(DISC, lambda now: NOWHERE)]
-        cls.world = World([cls.robot])
-        cls.robot.start_all("_config:=" + cls.config)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.world.end()
-        os.remove(cls.config)
+class Crossings(ScannerAloneTest):
+    chance = random.Random(7)
 
     def under_way(self):
         """+1 or -1: where it goes, at full speed."""

@@ -5,6 +5,7 @@ import os
 import random
 import signal
 import subprocess
+import tempfile
 import threading
 import time
 import unittest
@@ -340,13 +341,37 @@ class LossyAir:
 class OneRobotTest(unittest.TestCase):
     """Tests that share one robot, its nodes as processes of their own, and its world."""
     number = 0
+    start = 0.0  # [m] x
+    config = ""  # of its file; empty: the defaults
 
     @classmethod
     def setUpClass(cls):
-        cls.robot = Robot(cls.number)
+        cls.robot = Robot(cls.number, cls.start)
+        cls.prepare()
         cls.world = World([cls.robot])
-        cls.robot.start_all()
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml", delete=False) as file:
+            file.write(cls.config)
+        cls.config_file = file.name
+        cls.robot.start_all(*(["_config:=" + file.name] if cls.config else []))
+
+    @classmethod
+    def prepare(cls):
+        """Before the robot's world and its nodes begin."""
 
     @classmethod
     def tearDownClass(cls):
+        os.remove(cls.config_file)
         cls.world.end()
+
+
+NOWHERE = (0.0, 50.0)  # [m] out of sight
+
+
+class ScannerAloneTest(OneRobotTest):
+    """Nobody reports obstacles to the robot: its scanner is all it has."""
+    config = "host: {relies_on_obstacles: false}\n"
+
+    @classmethod
+    def prepare(cls):
+        cls.robot.obstacles_on = False
+        cls.robot.walkers = [(0.25, lambda now: NOWHERE)]  # nobody yet; where anybody may be its beams are finer

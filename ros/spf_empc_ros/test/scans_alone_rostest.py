@@ -1,40 +1,20 @@
 #!/usr/bin/python3
 """A robot whose scanner is all it has: nobody reports obstacles to it, and it finds who walks there in its own scans."""
 import math
-import os
 import sys
-import tempfile
 import time
-import unittest
 
 import rospy
 import rostest
 from spf_empc_msgs.msg import ObstacleTracks
 
-from robot_world import Robot, World, drive, wait_until
+from robot_world import NOWHERE, ScannerAloneTest, drive, wait_until
 
-CONFIG = "host: {relies_on_obstacles: false}\n"
 ROBOT, WALKER = 0.3, 0.25  # [m] radii
 SPEED = 0.6  # [m/s] of the walker
 
 
-class ScansAlone(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        with tempfile.NamedTemporaryFile("w", suffix=".yaml", delete=False) as file:
-            file.write(CONFIG)
-        cls.config = file.name
-        cls.robot = Robot(0)
-        cls.robot.obstacles_on = False
-        cls.robot.walkers = [(WALKER, lambda now: (0.0, 50.0))]  # nobody yet
-        cls.world = World([cls.robot])
-        cls.robot.start_all("_config:=" + cls.config)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.world.end()
-        os.remove(cls.config)
-
+class ScansAlone(ScannerAloneTest):
     def test_somebody_who_comes_towards_it_is_found_and_evaded(self):
         robot = self.robot
         self.assertTrue(drive(robot), robot.status.reason)
@@ -68,7 +48,7 @@ class ScansAlone(unittest.TestCase):
         self.assertLess(errors[len(errors) // 2][0], 0.15)
         self.assertLess(sorted(velocity for _, velocity in errors)[len(errors) // 2], 0.3)
         self.assertGreater(least[0], 0.02)
-        robot.walkers = [(WALKER, lambda now: (0.0, 50.0))]
+        robot.walkers = [(WALKER, lambda now: NOWHERE)]
         self.assertTrue(wait_until(lambda: robot.speed() > 0.9, 10.0), robot.status.reason)
 
 

@@ -9,6 +9,7 @@ import rostest
 
 from robot_world import OneRobotTest, drive, wait_until
 
+
 class Stuck(OneRobotTest):
     def test_held_robot(self):
         robot = self.robot
