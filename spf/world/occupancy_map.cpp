@@ -38,6 +38,7 @@ struct OccupancyMap::Patch {
   double value[2][2];       // [along x][along y]
   double x, y;              // position between the nodes, in [0, 1]
   bool inside_x, inside_y;  // false: clamped to the grid's edge
+  int node_i[2], node_j[2];
 
   [[nodiscard]] double interpolated() const {
     const double low_y = value[0][0] + x * (value[1][0] - value[0][0]);
@@ -168,6 +169,10 @@ OccupancyMap::Patch OccupancyMap::patch_of(const Eigen::Vector2d& position_world
   const int j = std::max(std::min(static_cast<int>(held_v), frame_.height - 2), 0);
   const int next_i = std::min(i + 1, frame_.width - 1);
   const int next_j = std::min(j + 1, frame_.height - 1);
+  patch.node_i[0] = i;
+  patch.node_i[1] = next_i;
+  patch.node_j[0] = j;
+  patch.node_j[1] = next_j;
   patch.x = held_u - i;
   patch.y = held_v - j;
   patch.value[0][0] = node_value(i, j);
@@ -179,6 +184,47 @@ OccupancyMap::Patch OccupancyMap::patch_of(const Eigen::Vector2d& position_world
 
 double OccupancyMap::distance(const Eigen::Vector2d& position_world) const {
   return patch_of(position_world, [this](int i, int j) { return node_distance(i, j); }).interpolated();
+}
+
+/// Gradient at a node [1] of the distance to the surface that is nearest to it. Between two surfaces the
+/// distance has a ridge, where a difference over both sides says nothing: there it is that of the side on
+/// which the distance falls more.
+Eigen::Vector2d OccupancyMap::node_slope(int i, int j) const {
+  constexpr double kKink = 0.05;  // [1] of a cell: more is a ridge
+  const double here = node_distance(i, j);
+  const auto along = [&](double before, double after) {
+    const bool ridge = before + after - 2.0 * here < -kKink * frame_.resolution;
+    const double rise = before < after ? here - before : after - here;
+    return (ridge ? rise : 0.5 * (after - before)) / frame_.resolution;
+  };
+  const int low_i = std::max(i - 1, 0), high_i = std::min(i + 1, frame_.width - 1);
+  const int low_j = std::max(j - 1, 0), high_j = std::min(j + 1, frame_.height - 1);
+  return {along(node_distance(low_i, j), node_distance(high_i, j)),
+          along(node_distance(i, low_j), node_distance(i, high_j))};
+}
+
+double OccupancyMap::exact_distance(const Eigen::Vector2d& position_world) const {
+  const Patch patch = patch_of(position_world, [this](int i, int j) { return node_distance(i, j); });
+  const double interpolated = patch.interpolated();
+  Eigen::Vector2d slope[4];
+  int widest = 0;
+  double weight[4];
+  for (int k = 0; k < 4; ++k) {
+    slope[k] = node_slope(patch.node_i[k & 1], patch.node_j[k >> 1]);
+    weight[k] = ((k & 1) != 0 ? patch.x : 1.0 - patch.x) * (k > 1 ? patch.y : 1.0 - patch.y);
+    if (weight[k] > weight[widest]) widest = k;
+  }
+  // The nodes of either side of the ridge vouch for the surface on their side.
+  double sum[2] = {0.0, 0.0};
+  double weights[2] = {0.0, 0.0};
+  for (int k = 0; k < 4; ++k) {
+    const std::size_t side = slope[k].dot(slope[widest]) > 0.0 ? 0 : 1;
+    const Eigen::Vector2d offset{patch.x - (k & 1), patch.y - (k >> 1)};
+    sum[side] += weight[k] * (patch.value[k & 1][k >> 1] + frame_.resolution * offset.dot(slope[k]));
+    weights[side] += weight[k];
+  }
+  if (!(weights[1] > 0.0)) return interpolated;
+  return std::max(interpolated, std::min(sum[0] / weights[0], sum[1] / weights[1]));
 }
 
 double OccupancyMap::known_distance(const Eigen::Vector2d& position_world) const {

@@ -13,15 +13,9 @@ constexpr double kLowestProbability = 0.12;   // belief is kept above, so that n
 constexpr double kHighestProbability = 0.90;  // and below, so that vanished obstacles are let go soon
 constexpr double kOccupiedProbability = 0.80;  // from here on a cell is an obstacle
 constexpr double kLogOddsUnit = 4096.0;        // steps per unit of log odds; |log odds| <= 4.6 fits 16 bits
-constexpr double kOffsetUnit = 32767.0;        // steps per half cell
 
 std::int16_t quantised_log_odds(double probability) {
   return static_cast<std::int16_t>(std::lround(kLogOddsUnit * std::log(probability / (1.0 - probability))));
-}
-
-std::int16_t quantised_offset(double offset, double resolution) {
-  const double steps = offset / (0.5 * resolution) * kOffsetUnit;
-  return static_cast<std::int16_t>(std::lround(std::clamp(steps, -kOffsetUnit, kOffsetUnit)));
 }
 
 /// Whether the surface that beams `index` and `other` have met runs through a point: within `tolerance` of
@@ -44,7 +38,7 @@ bool contradicts(const Eigen::Vector2d& hit_from_sensor, const std::vector<Sense
   const double along = hit_from_sensor.dot(beam.direction_world);
   const double beside =
       hit_from_sensor.x() * beam.direction_world.y() - hit_from_sensor.y() * beam.direction_world.x();
-  if (std::fabs(beside) > 0.25 * resolution || beam.length < along + resolution) return false;
+  if (std::fabs(beside) > 0.125 * resolution || beam.length < along + resolution) return false;
   // index - 1 of the first beam wraps to a number past the end.
   return !interpolated_by_pair(hit_from_sensor, beams, index, index + 1, 0.5 * resolution) &&
          !interpolated_by_pair(hit_from_sensor, beams, index, index - 1, 0.5 * resolution);
@@ -104,8 +98,7 @@ SensedLayer::Tile& SensedLayer::tile_at(int i, int j) {
     fresh.first_j = j & ~(kTileSide - 1);
     fresh.distance.fill(max_distance_);
     fresh.log_odds.fill(0);
-    fresh.hit_x.fill(0);
-    fresh.hit_y.fill(0);
+    fresh.hits.fill(0);
     fresh.sweep.fill(0);
   }
   return tiles_[static_cast<std::size_t>(index)];
@@ -116,12 +109,21 @@ SensedLayer::NodeWindow SensedLayer::window_around(int i, int j, int reach) cons
           std::min(j + reach, frame_.height - 1)};
 }
 
-SensedLayer::Hit SensedLayer::hit_of(const Tile& tile, std::size_t slot) const {
-  const float unit = static_cast<float>(0.5 * frame_.resolution / kOffsetUnit);
+SensedLayer::Hit SensedLayer::hit_at(int i, int j, int part) const {
+  const auto middle = [this](int along) {
+    return static_cast<float>((along + 0.5) / kParts - 0.5) * static_cast<float>(frame_.resolution);
+  };
+  return {i, j, Eigen::Vector2f{middle(part % kParts), middle(part / kParts)}};
+}
+
+/// Calls visit(hit) for some parts of a cell until it returns false.
+template <class Visit>
+void SensedLayer::for_hits(const Tile& tile, std::size_t slot, std::uint16_t parts,
+                           const Visit& visit) const {
   const int i = tile.first_i + static_cast<int>(slot & (kTileSide - 1));
   const int j = tile.first_j + static_cast<int>(slot >> kTileBits);
-  return {i, j,
-          unit * Eigen::Vector2f{static_cast<float>(tile.hit_x[slot]), static_cast<float>(tile.hit_y[slot])}};
+  for (int part = 0; part < kParts * kParts; ++part)
+    if ((parts >> part & 1) != 0 && !visit(hit_at(i, j, part))) return;
 }
 
 void SensedLayer::enter_return(const Eigen::Vector2d& end_world) {
@@ -129,19 +131,29 @@ void SensedLayer::enter_return(const Eigen::Vector2d& end_world) {
   const int i = static_cast<int>(std::floor(scaled.x() + 0.5));
   const int j = static_cast<int>(std::floor(scaled.y() + 0.5));
   if (!frame_.contains(i, j)) return;
+  const auto along = [](double offset) {
+    return std::clamp(static_cast<int>((offset + 0.5) * kParts), 0, kParts - 1);
+  };
+  const int part = along(scaled.x() - i) + kParts * along(scaled.y() - j);
   Tile& tile = tile_at(i, j);
   const std::size_t slot = cell_slot(i, j);
-  if (tile.sweep[slot] == sweep_) return;
-  tile.sweep[slot] = sweep_;
   std::int16_t& log_odds = tile.log_odds[slot];
+  std::uint16_t& hits = tile.hits[slot];
+  const std::uint16_t before = log_odds > 0 ? hits : std::uint16_t{0};
   const bool was_occupied = log_odds >= occupied_from_;
-  log_odds = static_cast<std::int16_t>(std::min<int>(log_odds + hit_step_, highest_));
-  if (was_occupied) return;
-  tile.hit_x[slot] = quantised_offset((scaled.x() - i) * frame_.resolution, frame_.resolution);
-  tile.hit_y[slot] = quantised_offset((scaled.y() - j) * frame_.resolution, frame_.resolution);
+  // One return of a sweep counts, and all of them say where the surface is.
+  if (tile.sweep[slot] != sweep_) {
+    tile.sweep[slot] = sweep_;
+    log_odds = static_cast<std::int16_t>(std::min<int>(log_odds + hit_step_, highest_));
+  }
+  hits = static_cast<std::uint16_t>(before | 1U << part);
   if (log_odds < occupied_from_) return;
-  ++tile.occupied_cells;
-  appeared_.push_back(hit_of(tile, slot));
+  if (!was_occupied) ++tile.occupied_cells;
+  const auto fresh = static_cast<std::uint16_t>(was_occupied ? hits & ~before : hits);
+  for_hits(tile, slot, fresh, [this](const Hit& hit) {
+    appeared_.push_back(hit);
+    return true;
+  });
 }
 
 // Visits the cells along the beam in order (Amanatides and Woo); the cell of a return is left out.
@@ -180,9 +192,13 @@ void SensedLayer::enter_crossing(const Eigen::Vector2i& cell, const Eigen::Vecto
   if (tile.sweep[slot] == sweep_) return;
   std::int16_t& log_odds = tile.log_odds[slot];
   if (log_odds > 0) {
-    const Eigen::Vector2d hit =
-        frame_.node_position(cell.x(), cell.y()) + hit_of(tile, slot).offset.cast<double>();
-    if (!contradicts(hit - sensor_world, beams, index, frame_.resolution)) return;
+    bool contradicted = false;
+    for_hits(tile, slot, tile.hits[slot], [&](const Hit& hit) {
+      const Eigen::Vector2d place = frame_.node_position(hit.i, hit.j) + hit.offset.cast<double>();
+      contradicted = contradicts(place - sensor_world, beams, index, frame_.resolution);
+      return !contradicted;
+    });
+    if (!contradicted) return;
   }
   tile.sweep[slot] = sweep_;
   const bool was_occupied = log_odds >= occupied_from_;
@@ -190,7 +206,10 @@ void SensedLayer::enter_crossing(const Eigen::Vector2i& cell, const Eigen::Vecto
   log_odds = static_cast<std::int16_t>(lowered);
   if (!was_occupied || lowered >= occupied_from_) return;
   --tile.occupied_cells;
-  vanished_.push_back(hit_of(tile, slot));
+  for_hits(tile, slot, tile.hits[slot], [this](const Hit& hit) {
+    vanished_.push_back(hit);
+    return true;
+  });
 }
 
 void SensedLayer::stamp(const Hit& hit) {
@@ -247,8 +266,13 @@ void SensedLayer::restore(const Hit& vanished, std::size_t first_node, std::size
         tile.first_i + kTileSide <= window.low_i || tile.first_j > window.high_j ||
         tile.first_j + kTileSide <= window.low_j)
       continue;
-    for (std::size_t slot = 0; slot < kTileCells; ++slot)
-      if (tile.log_odds[slot] >= occupied_from_) nearby_.push_back(hit_of(tile, slot));
+    for (std::size_t slot = 0; slot < kTileCells; ++slot) {
+      if (tile.log_odds[slot] < occupied_from_) continue;
+      for_hits(tile, slot, tile.hits[slot], [this](const Hit& hit) {
+        nearby_.push_back(hit);
+        return true;
+      });
+    }
   }
   const float resolution = static_cast<float>(frame_.resolution);
   for (std::size_t n = first_node; n < last_node; ++n) {
@@ -297,8 +321,10 @@ std::vector<Eigen::Vector2d> SensedLayer::occupied_points() const {
     if (tile.occupied_cells == 0) continue;
     for (std::size_t slot = 0; slot < kTileCells; ++slot) {
       if (tile.log_odds[slot] < occupied_from_) continue;
-      const Hit hit = hit_of(tile, slot);
-      points.push_back(frame_.node_position(hit.i, hit.j) + hit.offset.cast<double>());
+      for_hits(tile, slot, tile.hits[slot], [&](const Hit& hit) {
+        points.push_back(frame_.node_position(hit.i, hit.j) + hit.offset.cast<double>());
+        return true;
+      });
     }
   }
   return points;

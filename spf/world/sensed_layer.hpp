@@ -1,5 +1,5 @@
-// What a range sensor has seen, on a grid: log odds per cell, the hit point of every occupied cell, and the
-// distance from every node to the nearest hit point. Part of OccupancyMap. Frame: world.
+// What a range sensor has seen, on a grid: log odds per cell, where in each cell beams have ended, and the
+// distance from every node to the nearest such place. Part of OccupancyMap. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,6 +32,8 @@ class SensedLayer {
   /// Enters surfaces at these points [m], as sure as sweeps make them that just suffice.
   void enter_surfaces(const std::vector<Eigen::Vector2d>& points_world);
 
+  /// A surface is at most this much nearer than distance() says [m]: half a part of a cell.
+  [[nodiscard]] double error() const { return 0.5 * frame_.resolution / kParts; }
   /// Distance from node (i, j) to the nearest hit point of an occupied cell [m], at most max_distance.
   [[nodiscard]] float distance(int i, int j) const {
     const int tile = tile_of_[tile_slot(i, j)];
@@ -47,6 +49,7 @@ class SensedLayer {
   static constexpr int kTileBits = 5;
   static constexpr int kTileSide = 1 << kTileBits;
   static constexpr std::size_t kTileCells = std::size_t{1} << (2 * kTileBits);
+  static constexpr int kParts = 4;  // of a cell, along each axis
 
   struct Tile {
     int first_i = 0;
@@ -54,10 +57,11 @@ class SensedLayer {
     int occupied_cells = 0;
     std::array<float, kTileCells> distance;
     std::array<std::int16_t, kTileCells> log_odds;  // in units of 1 / kLogOddsUnit
-    std::array<std::int16_t, kTileCells> hit_x;     // offset from the node in units of half a cell / 32767;
-    std::array<std::int16_t, kTileCells> hit_y;     // valid while log_odds > 0
+    std::array<std::uint16_t, kTileCells> hits;     // a bit for each of the 4 x 4 parts of the cell in which
+                                                    // a beam has ended; valid while log_odds > 0
     std::array<std::uint16_t, kTileCells> sweep;    // last sweep that updated the cell
   };
+  /// The middle of a part of a cell in which beams have ended.
   struct Hit {
     int i;
     int j;
@@ -76,7 +80,9 @@ class SensedLayer {
   }
   Tile& tile_at(int i, int j);
   [[nodiscard]] NodeWindow window_around(int i, int j, int reach) const;
-  [[nodiscard]] Hit hit_of(const Tile& tile, std::size_t slot) const;
+  [[nodiscard]] Hit hit_at(int i, int j, int part) const;
+  template <class Visit>
+  void for_hits(const Tile& tile, std::size_t slot, std::uint16_t parts, const Visit& visit) const;
   void enter_return(const Eigen::Vector2d& end_world);
   void cross_cells(const Eigen::Vector2d& sensor_world, const std::vector<SensedBeam>& beams,
                    std::size_t index);
