@@ -16,10 +16,13 @@ struct CostToGo::Cell {
   Eigen::Vector2d outward;   // unit vector away from the window, zero inside
 };
 
-CostToGo::CostToGo(const CostToGoParameters& parameters, double robot_radius)
-    : parameters_{validated(parameters)}, clearance_{parameters.clearance + robot_radius} {}
+CostToGo::CostToGo(const CostToGoParameters& parameters, double robot_radius, double least_margin)
+    : parameters_{validated(parameters)},
+      clearance_{parameters.clearance + robot_radius},
+      least_clearance_{robot_radius + std::min(parameters.clearance, least_margin)} {}
 
 Eigen::Vector2d CostToGo::local_position(std::int32_t index) const {
+  if (!place_.empty()) return place_[static_cast<std::size_t>(index)].cast<double>();
   return window_.resolution * Eigen::Vector2d{index % window_.width, index / window_.width};
 }
 

@@ -1,40 +1,23 @@
 // Cost-to-go [m]: the length of the shortest path around static obstacles to the goal, from any position. A
 // wavefront from the goal assigns to every node of a coarse grid its parent: the next corner on the path to
 // the goal, which is in line of sight (lazy Theta*, any-angle). The cost at a position is the distance to a
-// parent plus the parent's cost: an exact length, not a sum of grid steps. Frame: world.
+// parent plus the parent's cost: an exact length, not a sum of grid steps. Where clearances may be less than
+// wanted, narrow ground costs more: nodes move to the roomiest place of their cell, and two neighbours that
+// do not see each other are joined by a way that bends through the middle of the gap between them. Frame:
+// world.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
-#include "spf/math/parameters.hpp"
+#include "spf/planning/cost_to_go_parameters.hpp"
 #include "spf/world/occupancy_map.hpp"
 
 namespace spf {
-
-struct CostToGoParameters {
-  double clearance = 0.15;      ///< [m] distance to static surfaces that paths keep beyond the robot's radius
-  double resolution = 0.2;      ///< [m] spacing of nodes, at most 1.4 times the distance kept is used;
-                                ///< passages narrower than twice that + this may be missed
-  double window_margin = 10.0;  ///< [m] the wavefront first stays this close to the box around robot and goal
-
-  template <class Self, class Visitor>
-  static void visit_fields(Self& self, Visitor&& visit) {
-    visit("clearance", self.clearance, kMetresBySize, Range{0.0, 20.0},
-          "distance to static surfaces that the global path keeps beyond the robot's radius");
-    visit("resolution", self.resolution, kMetresBySize, Range{0.005, 5.0},
-          "spacing of the nodes of the global path's search");
-  }
-
-  /// No settings, but they follow the robot.
-  template <class Self, class Visitor>
-  static void visit_constants(Self& self, Visitor&& visit) {
-    visit(self.window_margin, Scale::stopping_distance, Range{0.0, 1000.0});
-  }
-};
 
 enum class CostToGoOutcome {
   reachable,    ///< a path leads from the robot to the goal
@@ -48,7 +31,11 @@ class CostToGo {
  public:
   /// For a robot of this radius [m]; without one for a point. Throws std::invalid_argument on parameters out
   /// of range.
-  explicit CostToGo(const CostToGoParameters& parameters, double robot_radius = 0.0);
+  /// Narrow passages are taken, at a price (kNarrowCost), where they leave `least_margin` [m] beyond the
+  /// radius; without one, what is narrower than the clearance is blocked, and passages narrower than twice
+  /// that + the resolution may be missed.
+  explicit CostToGo(const CostToGoParameters& parameters, double robot_radius = 0.0,
+                    double least_margin = std::numeric_limits<double>::infinity());
 
   /// Propagates from the goal far enough for a robot at `robot_world`. The wavefront's working memory (some
   /// 30 bytes a node) is kept from run to run when the map is being sensed, since the next update comes soon,
@@ -77,6 +64,10 @@ class CostToGo {
   /// The corners of the shortest path, from the position itself to goal_used().
   void shortest_path(const Eigen::Vector2d& position_world,
                      std::vector<Eigen::Vector2d>& corners_world) const;
+  /// Whether the straight way between two positions keeps the clearance that paths must keep, but for half a
+  /// cell of the map, since they graze their corners.
+  [[nodiscard]] bool passable(const OccupancyMap& map, const Eigen::Vector2d& from_world,
+                              const Eigen::Vector2d& to_world) const;
   /// Whether a path leads from this position to the goal.
   [[nodiscard]] bool reachable(const Eigen::Vector2d& position_world) const;
 
@@ -84,6 +75,8 @@ class CostToGo {
   [[nodiscard]] const Eigen::Vector2d& goal_used() const { return goal_used_; }
   /// Between paths and static surfaces [m]: the robot's radius and the clearance beyond it.
   [[nodiscard]] double clearance() const { return clearance_; }
+  /// Likewise where there is no room for that: what paths keep everywhere [m].
+  [[nodiscard]] double least_clearance() const { return least_clearance_; }
   [[nodiscard]] double resolution() const { return parameters_.resolution; }
 
  private:
@@ -101,8 +94,10 @@ class CostToGo {
   };
   /// State of the wavefront in progress, by node of the window.
   struct Wavefront {
-    std::vector<Node> nodes;
+    std::vector<Node> nodes;  // of the window, then those at bends
     std::vector<std::uint8_t> state;
+    std::vector<float> surcharge;       // [m] of the way to the parent, which the node's parent_cost contains
+    std::vector<Eigen::Vector2d> bend;  // [m] of a way between two neighbours
     std::vector<Entry> heap;
     std::vector<std::int32_t> nearest_reached;
     std::vector<std::int32_t> queue;
@@ -116,6 +111,8 @@ class CostToGo {
   [[nodiscard]] static std::int32_t nearest_reached_of(const Node& node) {
     return kBlocked - 1 - node.parent_node;
   }
+  [[nodiscard]] bool narrow() const { return least_clearance_ < clearance_; }
+  [[nodiscard]] std::int32_t window_count() const { return window_.width * window_.height; }
   [[nodiscard]] Eigen::Vector2d local_position(std::int32_t index) const;
   [[nodiscard]] double cost_at(const Node& node, const Eigen::Vector2d& local) const;
   [[nodiscard]] float own_cost(const Node& node, std::int32_t index) const {
@@ -139,13 +136,23 @@ class CostToGo {
   [[nodiscard]] bool between_viewers(std::int32_t index) const;
   void push(std::int32_t index);
   void offer(std::int32_t index, const Node& parent);
-  void find_parent_in_view(const OccupancyMap& map, std::int32_t index);
+  void find_parent_in_view(const OccupancyMap& map, std::int32_t index, std::optional<double> extra);
+  [[nodiscard]] Node parent_of(std::int32_t index) const;
   [[nodiscard]] Node parent_at(std::int32_t index, const Eigen::Vector2d& local) const;
   [[nodiscard]] Eigen::Vector2d at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const;
-  [[nodiscard]] bool sees_position(const OccupancyMap& map, const Node& parent,
-                                   const Eigen::Vector2d& local) const;
-  [[nodiscard]] bool in_view(const OccupancyMap& map, std::int32_t index, const Node& parent) const;
+  [[nodiscard]] std::optional<double> view(const OccupancyMap& map, const Eigen::Vector2d& from,
+                                           const Eigen::Vector2d& to) const;
+  [[nodiscard]] std::optional<double> narrow_view(const OccupancyMap& map, const Eigen::Vector2d& from,
+                                                  const Eigen::Vector2d& to) const;
+  [[nodiscard]] Eigen::Vector2d roomiest(const OccupancyMap& map, const Eigen::Vector2d& node_world,
+                                         double& room) const;
+  [[nodiscard]] std::optional<Eigen::Vector2d> middle_of_gap(const OccupancyMap& map,
+                                                             const Eigen::Vector2d& from,
+                                                             const Eigen::Vector2d& to) const;
+  bool bend_between(const OccupancyMap& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  [[nodiscard]] Node parent_around_bend(const OccupancyMap& map, std::int32_t index);
   [[nodiscard]] bool wavefront_reached(const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] bool settled_at(std::int32_t index) const;
   void extend_over_blocked_ground();
   void keep(const OccupancyMap& map);
   [[nodiscard]] std::optional<std::uint16_t> kept_beside(std::int32_t index) const;
@@ -154,18 +161,32 @@ class CostToGo {
   [[nodiscard]] bool window_covers(const Eigen::Vector2d& position_world) const;
 
   CostToGoParameters parameters_;
-  double clearance_;  // [m] of the robot's centre
+  double clearance_;        // [m] of the robot's centre
+  double least_clearance_;  // [m] likewise
   CostToGoOutcome outcome_ = CostToGoOutcome::no_free_goal;
   Eigen::Vector2d goal_asked_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d goal_used_ = Eigen::Vector2d::Zero();
   std::uint64_t map_revision_ = 0;
   bool whole_map_ = false;
   GridFrame window_;
+  // [m] from the window's origin, of nodes that are not at their place of the grid; empty: all are.
+  std::vector<Eigen::Vector2f> place_;
   // The wavefront's result. Neighbours mostly share a parent, so each is stored once.
   std::vector<Node> parents_;
   std::vector<std::uint16_t>
       parent_of_;  // by node, an index into parents_; empty: parents_ is by node itself
   Wavefront wavefront_;
 };
+
+template <class Visit>
+void CostToGo::for_neighbours(std::int32_t index, const Visit& visit) const {
+  const int i = index % window_.width;
+  const int j = index / window_.width;
+  for (int dj = -1; dj <= 1; ++dj) {
+    for (int di = -1; di <= 1; ++di) {
+      if ((di != 0 || dj != 0) && window_.contains(i + di, j + dj)) visit(window_.index(i + di, j + dj));
+    }
+  }
+}
 
 }  // namespace spf

@@ -259,6 +259,60 @@ TEST(CostToGo, FindsDetoursOutsideTheWindow) {
   EXPECT_NEAR(guide.cost_to_go({-2.0, 5.0}), expected + 1.0, 0.5);
 }
 
+CostToGo guide_for_narrow_gaps() { return CostToGo{CostToGoParameters{}, 0.3, 0.02}; }
+
+/// A wall along y with one door.
+std::vector<Box> wall_with_door(double wall, double thickness, double middle, double width) {
+  return {{{wall - 0.5 * thickness, middle + 0.5 * width}, {wall + 0.5 * thickness, 9.0}},
+          {{wall - 0.5 * thickness, -9.0}, {wall + 0.5 * thickness, middle - 0.5 * width}}};
+}
+
+TEST(CostToGo, FindsEveryDoorThatIsWideEnough) {
+  RandomStream random{17};
+  for (int k = 0; k < 400; ++k) {
+    const double width = random.uniform(0.68, 1.2);
+    const double middle = random.uniform(-2.0, 2.0);
+    const std::vector<Box> boxes =
+        wall_with_door(random.uniform(-1.0, 1.0), random.uniform(0.05, 0.6), middle, width);
+    const OccupancyMap map = map_with(boxes);
+    CostToGo guide = guide_for_narrow_gaps();
+    const Eigen::Vector2d start{-4.0, random.uniform(-4.0, 4.0)};
+    ASSERT_EQ(guide.update(map, {4.0, random.uniform(-4.0, 4.0)}, start), CostToGoOutcome::reachable)
+        << "a door of " << width << " at " << middle;
+    std::vector<Eigen::Vector2d> corners;
+    guide.shortest_path(start, corners);
+    double nearest = kInfinity;
+    for (std::size_t leg = 1; leg < corners.size(); ++leg)
+      for (int part = 0; part <= 100; ++part)
+        nearest = std::min(
+            nearest,
+            nearest_surface(corners[leg - 1] + 0.01 * part * (corners[leg] - corners[leg - 1]), boxes));
+    EXPECT_GT(nearest, 0.32 - 0.02) << "a door of " << width << " at " << middle;
+  }
+}
+
+TEST(CostToGo, FindsNoDoorThatIsTooNarrow) {
+  RandomStream random{18};
+  for (int k = 0; k < 100; ++k) {
+    const OccupancyMap map = map_with(wall_with_door(random.uniform(-1.0, 1.0), random.uniform(0.05, 0.6),
+                                                     random.uniform(-2.0, 2.0), random.uniform(0.3, 0.6)));
+    CostToGo guide = guide_for_narrow_gaps();
+    EXPECT_EQ(guide.update(map, {4.0, 0.0}, {-4.0, 0.0}), CostToGoOutcome::unreachable);
+  }
+}
+
+TEST(CostToGo, GoesRoundNarrowGroundWhereThatIsLittleLonger) {
+  // A narrow door straight ahead, and a wide one beside it.
+  const OccupancyMap map =
+      map_with({{{-0.2, 0.35}, {0.2, 0.8}}, {{-0.2, 2.2}, {0.2, 9.0}}, {{-0.2, -9.0}, {0.2, -0.35}}});
+  CostToGo guide = guide_for_narrow_gaps();
+  ASSERT_EQ(guide.update(map, {5.0, 0.0}, {-5.0, 0.0}), CostToGoOutcome::reachable);
+  std::vector<Eigen::Vector2d> corners;
+  guide.shortest_path({-5.0, 0.0}, corners);
+  for (std::size_t leg = 1; leg < corners.size(); ++leg)
+    EXPECT_TRUE(map.segment_clear(corners[leg - 1], corners[leg], 0.4));
+}
+
 TEST(CostToGo, KnowsWhenItIsOutdated) {
   OccupancyMap map = map_with(kUShape);
   CostToGo guide{CostToGoParameters{}, kBodyRadius};

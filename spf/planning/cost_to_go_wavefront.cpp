@@ -9,9 +9,6 @@
 namespace spf {
 namespace {
 
-constexpr double kBlockedFactor =
-    3.0;  // [1] about the cost of a metre on blocked ground, where no path leads
-
 enum NodeState : std::uint8_t {
   blocked,  // nearer to a surface than the clearance
   unseen,   // free, not reached yet
@@ -20,27 +17,12 @@ enum NodeState : std::uint8_t {
   settled,  // its cost is final
 };
 
-/// Lines of sight may pass this much nearer than the clearance, in cells of the map: the error of bilinear
-/// interpolation and of the steps between nodes.
-constexpr double kSightSlack = 0.25;
-
 template <class Entry>
 bool costlier(const Entry& a, const Entry& b) {
   return a.cost > b.cost;
 }
 
 }  // namespace
-
-template <class Visit>
-void CostToGo::for_neighbours(std::int32_t index, const Visit& visit) const {
-  const int i = index % window_.width;
-  const int j = index / window_.width;
-  for (int dj = -1; dj <= 1; ++dj) {
-    for (int di = -1; di <= 1; ++di) {
-      if ((di != 0 || dj != 0) && window_.contains(i + di, j + dj)) visit(window_.index(i + di, j + dj));
-    }
-  }
-}
 
 CostToGoOutcome CostToGo::update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                                  const Eigen::Vector2d& robot_world) {
@@ -102,7 +84,7 @@ void CostToGo::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, c
   const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
   // Two free nodes must not be neighbours across a wall, however thin, so their distance stays below 2
   // clearance.
-  const double safe_spacing = clearance_ > 0.0 ? 1.4 * clearance_ : parameters_.resolution;
+  const double safe_spacing = least_clearance_ > 0.0 ? 1.4 * least_clearance_ : parameters_.resolution;
   const double spacing = std::max(std::min(parameters_.resolution, safe_spacing), frame.resolution);
   // Nodes lie on multiples of the spacing from the map's corner, so that they do not move with the window.
   const auto snapped = [&](const Eigen::Vector2d& corner) {
@@ -117,14 +99,21 @@ void CostToGo::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, c
 }
 
 void CostToGo::mark_free_nodes(const OccupancyMap& map) {
-  const std::size_t count =
-      static_cast<std::size_t>(window_.width) * static_cast<std::size_t>(window_.height);
+  const std::size_t count = static_cast<std::size_t>(window_count());
   wavefront_.state.resize(count);
+  wavefront_.surcharge.assign(count, 0.0F);
   wavefront_.nodes.assign(count, {0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen});
+  place_.resize(narrow() ? count : 0);
   std::size_t index = 0;
   for (int j = 0; j < window_.height; ++j) {
     for (int i = 0; i < window_.width; ++i, ++index) {
-      wavefront_.state[index] = map.distance(window_.node_position(i, j)) >= clearance_ ? unseen : blocked;
+      Eigen::Vector2d position = window_.node_position(i, j);
+      double room = map.distance(position);
+      if (narrow()) {
+        if (room < clearance_) position = roomiest(map, position, room);
+        place_[index] = (position - window_.origin_world).cast<float>();
+      }
+      wavefront_.state[index] = room >= least_clearance_ ? unseen : blocked;
     }
   }
 }
@@ -142,14 +131,18 @@ void CostToGo::propagate(const OccupancyMap& map) {
     std::uint8_t& state = wavefront_.state[static_cast<std::size_t>(entry.node)];
     Node& node = wavefront_.nodes[static_cast<std::size_t>(entry.node)];
     if (state == settled || entry.cost > own_cost(node, entry.node)) continue;  // an older, costlier entry
-    if (state == trusted && !between_viewers(entry.node) && !in_view(map, entry.node, node)) {
-      find_parent_in_view(map, entry.node);
-      state = seen;
-      push(entry.node);
-      continue;
+    if (state == trusted && !between_viewers(entry.node)) {
+      const Eigen::Vector2d to_parent{node.parent_x, node.parent_y};
+      const std::optional<double> extra = view(map, local_position(entry.node), to_parent);
+      if (!extra || *extra > 0.0) {
+        find_parent_in_view(map, entry.node, extra);
+        wavefront_.state[static_cast<std::size_t>(entry.node)] = seen;
+        if (wavefront_.nodes[static_cast<std::size_t>(entry.node)].parent_node != kUnseen) push(entry.node);
+        continue;
+      }
     }
     state = settled;
-    const Node parent = node;
+    const Node parent = parent_of(entry.node);
     for_neighbours(entry.node, [&](std::int32_t next) { offer(next, parent); });
   }
 }
@@ -172,7 +165,8 @@ bool CostToGo::between_viewers(std::int32_t index) const {
     const Node& other = wavefront_.nodes[static_cast<std::size_t>(neighbour)];
     return wavefront_.state[static_cast<std::size_t>(neighbour)] == settled &&
            other.parent_node == node.parent_node && other.parent_x == node.parent_x &&
-           other.parent_y == node.parent_y;
+           other.parent_y == node.parent_y &&
+           wavefront_.surcharge[static_cast<std::size_t>(neighbour)] == 0.0F;
   };
   constexpr double kAlong = 1e-6;  // on a row or column the diagonal neighbour does not matter
   const bool straight = x > y ? sees_same(column, 0) : sees_same(0, row);
@@ -195,7 +189,8 @@ void CostToGo::seed(const OccupancyMap& map) {
       for (int i = centre.x() - reach; i <= centre.x() + reach; ++i) {
         if (!window_.contains(i, j)) continue;
         const std::int32_t index = window_.index(i, j);
-        if (wavefront_.state[static_cast<std::size_t>(index)] == unseen && in_view(map, index, goal))
+        if (wavefront_.state[static_cast<std::size_t>(index)] == unseen &&
+            view(map, local_position(index), local))
           offer(index, goal);
       }
     }
@@ -208,46 +203,59 @@ void CostToGo::offer(std::int32_t index, const Node& parent) {
   Node& node = wavefront_.nodes[static_cast<std::size_t>(index)];
   if (!(own_cost(parent, index) < own_cost(node, index))) return;
   node = parent;
+  wavefront_.surcharge[static_cast<std::size_t>(index)] = 0.0F;
   state = trusted;
   push(index);
 }
 
-bool CostToGo::in_view(const OccupancyMap& map, std::int32_t index, const Node& parent) const {
-  return sees_position(map, parent, local_position(index));
+/// The parent of a node as it is offered to others: without what the way there costs this node.
+CostToGo::Node CostToGo::parent_of(std::int32_t index) const {
+  Node parent = wavefront_.nodes[static_cast<std::size_t>(index)];
+  parent.parent_cost -= wavefront_.surcharge[static_cast<std::size_t>(index)];
+  return parent;
 }
 
-bool CostToGo::sees_position(const OccupancyMap& map, const Node& parent,
-                             const Eigen::Vector2d& local) const {
-  const Eigen::Vector2d there = window_.origin_world + Eigen::Vector2d{parent.parent_x, parent.parent_y};
-  return map.segment_clear(window_.origin_world + local, there,
-                           clearance_ - kSightSlack * map.frame().resolution);
-}
-
-void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index) {
+/// `extra` [m]: what the way to the present parent costs beyond its length; none = it is not in view.
+void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index, std::optional<double> extra) {
   const Eigen::Vector2d here = local_position(index);
+  const Node failed = parent_of(index);
   Node best{0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen};
   double lowest = std::numeric_limits<double>::infinity();
-  const auto try_parent = [&](const Node& parent, bool surely_in_view) {
-    const double cost = cost_at(parent, here);
-    if (!(cost < lowest) || !(surely_in_view || in_view(map, index, parent))) return;
+  double best_extra = 0.0;
+  const auto take = [&](const Node& parent, double extra_cost) {
+    const double cost = cost_at(parent, here) + extra_cost;
+    if (!(cost < lowest)) return;
     lowest = cost;
     best = parent;
+    best_extra = extra_cost;
   };
+  const auto try_parent = [&](const Node& parent) {
+    if (!(cost_at(parent, here) < lowest)) return false;
+    const std::optional<double> cost = view(map, here, {parent.parent_x, parent.parent_y});
+    if (cost) take(parent, *cost);
+    return cost.has_value();
+  };
+  if (extra) take(failed, *extra);
   for_neighbours(index, [&](std::int32_t next) {
     if (wavefront_.state[static_cast<std::size_t>(next)] != settled) return;
-    try_parent(parent_at(next, local_position(next)), true);
+    const Eigen::Vector2d next_position = local_position(next);
+    const Node beside = parent_at(next, next_position);
+    if (!narrow())
+      take(beside, 0.0);
+    else if (!try_parent(beside) && cost_at(beside, here) < lowest && bend_between(map, here, next_position))
+      try_parent(parent_around_bend(map, next));
     // The corner itself lies between nodes, this one and the last in view, at the clearance.
-    for (const Eigen::Vector2d& near :
-         {local_position(next), Eigen::Vector2d{0.5 * (local_position(next) + here)}}) {
-      const Node corner = parent_at(next, at_clearance(map, near));
-      const Eigen::Vector2d corner_position{corner.parent_x, corner.parent_y};
-      if (cost_at(corner, here) < lowest &&
-          sees_position(map, wavefront_.nodes[static_cast<std::size_t>(next)], corner_position)) {
-        try_parent(corner, false);
-      }
+    for (const Eigen::Vector2d& near : {next_position, Eigen::Vector2d{0.5 * (next_position + here)}}) {
+      const Eigen::Vector2d place = at_clearance(map, near);
+      Node corner = parent_at(next, place);
+      if (cost_at(corner, here) >= lowest) continue;
+      const Node of_next = parent_of(next);
+      const std::optional<double> beyond = view(map, place, {of_next.parent_x, of_next.parent_y});
+      if (!beyond) continue;
+      corner.parent_cost = static_cast<float>(cost_at(of_next, place) + *beyond);
+      try_parent(corner);
     }
   });
-  const Node failed = wavefront_.nodes[static_cast<std::size_t>(index)];
   std::int32_t last_tried = failed.parent_node;
   for_neighbours(index, [&](std::int32_t next) {
     const Node& parent = wavefront_.nodes[static_cast<std::size_t>(next)];
@@ -256,9 +264,11 @@ void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index) 
       return;
     if (parent.parent_node == last_tried) return;
     last_tried = parent.parent_node;
-    try_parent(parent, false);
+    try_parent(parent_of(next));
   });
+  best.parent_cost += static_cast<float>(best_extra);
   wavefront_.nodes[static_cast<std::size_t>(index)] = best;
+  wavefront_.surcharge[static_cast<std::size_t>(index)] = static_cast<float>(best_extra);
 }
 
 // A position in view of a node's parent as a parent of its own.
@@ -267,130 +277,8 @@ CostToGo::Node CostToGo::parent_at(std::int32_t index, const Eigen::Vector2d& lo
   return {static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(cost), index};
 }
 
-// The nearby position that just keeps the clearance.
-Eigen::Vector2d CostToGo::at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const {
-  Eigen::Vector2d position = window_.origin_world + local;
-  for (int step = 0; step < 2; ++step) {
-    const double excess = map.distance(position) - clearance_;
-    position -= std::clamp(excess, -window_.resolution, window_.resolution) * map.distance_gradient(position);
-  }
-  return position - window_.origin_world;
-}
-
-// A node that the wavefront did not reach takes the parent of the nearest node that it did, with a surcharge
-// for every metre of depth beyond the first cells. Nearest, not cheapest, so that the two faces of a wall
-// keep their own costs.
-void CostToGo::extend_over_blocked_ground() {
-  wavefront_.queue.clear();
-  wavefront_.nearest_reached.assign(wavefront_.nodes.size(), kUnseen);
-  const std::int32_t count = static_cast<std::int32_t>(wavefront_.nodes.size());
-  for (std::int32_t index = 0; index < count; ++index) {
-    if (wavefront_.state[static_cast<std::size_t>(index)] != settled) continue;
-    wavefront_.nearest_reached[static_cast<std::size_t>(index)] = index;
-    wavefront_.queue.push_back(index);
-  }
-  if (wavefront_.queue.empty()) {  // not even the goal's neighbours: straight lines, all of them surcharged
-    const Eigen::Vector2d local = goal_used_ - window_.origin_world;
-    const Node goal{static_cast<float>(local.x()), static_cast<float>(local.y()), 0.0F, kBlocked};
-    std::fill(wavefront_.nodes.begin(), wavefront_.nodes.end(), goal);
-    return;
-  }
-  for (std::size_t head = 0; head < wavefront_.queue.size(); ++head) {
-    const std::int32_t nearest_reached =
-        wavefront_.nearest_reached[static_cast<std::size_t>(wavefront_.queue[head])];
-    const Eigen::Vector2d nearest_position = local_position(nearest_reached);
-    for_neighbours(wavefront_.queue[head], [&](std::int32_t next) {
-      std::int32_t& known = wavefront_.nearest_reached[static_cast<std::size_t>(next)];
-      if (known == next || known == nearest_reached) return;
-      const double depth = (local_position(next) - nearest_position).squaredNorm();
-      if (known != kUnseen && depth >= (local_position(next) - local_position(known)).squaredNorm()) return;
-      known = nearest_reached;
-      wavefront_.queue.push_back(next);
-    });
-  }
-  const double free_depth = 1.5 * window_.resolution;
-  for (std::int32_t index = 0; index < count; ++index) {
-    const std::int32_t nearest_reached = wavefront_.nearest_reached[static_cast<std::size_t>(index)];
-    if (nearest_reached == index) continue;
-    Node node = wavefront_.nodes[static_cast<std::size_t>(nearest_reached)];
-    const double depth =
-        std::max((local_position(index) - local_position(nearest_reached)).norm() - free_depth, 0.0);
-    node.parent_cost += static_cast<float>((kBlockedFactor - 1.0) * depth);
-    node.parent_node = kBlocked - 1 - nearest_reached;
-    wavefront_.nodes[static_cast<std::size_t>(index)] = node;
-  }
-}
-
-// Stores each distinct parent once: whole regions share one, so nearly every node has that of a neighbour.
-void CostToGo::keep(const OccupancyMap& map) {
-  constexpr std::size_t kMostParents = std::size_t{1} << 16;
-  parent_of_.clear();
-  parent_of_.reserve(wavefront_.nodes.size());
-  const auto count = static_cast<std::int32_t>(wavefront_.nodes.size());
-  for (std::int32_t index = 0; index < count; ++index) {
-    const std::optional<std::uint16_t> known = kept_beside(index);
-    if (!known && parents_.size() == kMostParents) {
-      parent_of_.clear();
-      parents_ = wavefront_.nodes;
-      break;
-    }
-    parent_of_.push_back(known.value_or(static_cast<std::uint16_t>(parents_.size())));
-    if (!known) parents_.push_back(wavefront_.nodes[static_cast<std::size_t>(index)]);
-  }
-  if (map.sensed()) return;
-  wavefront_ = {};
-  parents_.shrink_to_fit();
-}
-
-/// Index of the stored parent of an earlier neighbour, when it is this node's too.
-std::optional<std::uint16_t> CostToGo::kept_beside(std::int32_t index) const {
-  const Node& node = wavefront_.nodes[static_cast<std::size_t>(index)];
-  const int column = index % window_.width;
-  const auto same = [&](std::int32_t beside) {
-    const Node& other = wavefront_.nodes[static_cast<std::size_t>(beside)];
-    return other.parent_node == node.parent_node && other.parent_x == node.parent_x &&
-           other.parent_y == node.parent_y && other.parent_cost == node.parent_cost;
-  };
-  const std::int32_t below = index - window_.width;
-  if (column > 0 && same(index - 1)) return parent_of_[static_cast<std::size_t>(index - 1)];
-  if (below < 0) return std::nullopt;
-  for (int step : {0, -1, 1}) {
-    if (column + step < 0 || column + step >= window_.width) continue;
-    if (same(below + step)) return parent_of_[static_cast<std::size_t>(below + step)];
-  }
-  return std::nullopt;
-}
-
-// Rings of map nodes around the wanted position; the position itself when it keeps the clearance.
-std::optional<Eigen::Vector2d> CostToGo::nearest_free_position(const OccupancyMap& map,
-                                                               const Eigen::Vector2d& wanted) const {
-  const GridFrame& frame = map.frame();
-  const Eigen::Vector2d high = frame.node_position(frame.width - 1, frame.height - 1);
-  const bool inside =
-      (wanted.array() >= frame.origin_world.array()).all() && (wanted.array() <= high.array()).all();
-  if (inside && map.distance(wanted) >= clearance_) return wanted;
-  const Eigen::Vector2i centre = frame.nearest_node(wanted);
-  std::optional<Eigen::Vector2d> best;
-  double nearest = std::numeric_limits<double>::infinity();
-  const auto look = [&](int i, int j) {
-    if (!frame.contains(i, j) || map.node_distance(i, j) < clearance_) return;
-    const double distance = (frame.node_position(i, j) - wanted).norm();
-    if (distance >= nearest) return;
-    nearest = distance;
-    best = frame.node_position(i, j);
-  };
-  const double off_centre = (frame.node_position(centre.x(), centre.y()) - wanted).norm();
-  const int last_ring = std::max(frame.width, frame.height);
-  for (int ring = 0; ring <= last_ring; ++ring) {
-    if (ring * frame.resolution > nearest + off_centre) break;  // no later ring can come nearer
-    for (int k = -ring; k <= ring; ++k) {
-      look(centre.x() + k, centre.y() - ring);
-      look(centre.x() + k, centre.y() + ring);
-      look(centre.x() - ring, centre.y() + k);
-      look(centre.x() + ring, centre.y() + k);
-    }
-  }
-  return best;
+bool CostToGo::settled_at(std::int32_t index) const {
+  return wavefront_.state[static_cast<std::size_t>(index)] == settled;
 }
 
 }  // namespace spf

@@ -98,6 +98,9 @@ class Planner {
   /// Where the guide leads when no path leads to the goal. True: as near to it as possible
   /// (PlanRequest::goal_cut_off); false: to where the shortest path is blocked, and the method stops.
   [[nodiscard]] virtual bool approaches_cut_off_goal() const { return true; }
+  /// Whether the guide may lead through gaps that are hardly wider than the robot: the method then slows down
+  /// as they need.
+  [[nodiscard]] virtual bool passes_narrow_gaps() const { return false; }
 };
 
 /// Whether a request can be planned at all: finite numbers, a map and a guide.

@@ -10,7 +10,7 @@
 #include "spf/field/field_parameters.hpp"
 #include "spf/math/parameters.hpp"
 #include "spf/perception/perception_parameters.hpp"
-#include "spf/planning/cost_to_go.hpp"
+#include "spf/planning/cost_to_go_parameters.hpp"
 #include "spf/planning/orca/orca_parameters.hpp"
 #include "spf/planning/planner.hpp"
 #include "spf/planning/planner_parameters.hpp"

@@ -6,17 +6,28 @@
 #include "spf/team/schedule.hpp"
 
 namespace spf {
-GuidePolicy::GuidePolicy(const AgentParameters& parameters, bool approaches_cut_off_goal, double time)
-    : approaches_cut_off_goal_{approaches_cut_off_goal},
+namespace {
+
+CostToGo for_robot(const AgentParameters& parameters, const GuideNeeds& needs) {
+  if (!needs.passes_narrow_gaps) return CostToGo{parameters.guide, parameters.robot.radius};
+  return CostToGo{parameters.guide, parameters.robot.radius, parameters.space_time.static_margin};
+}
+
+}  // namespace
+
+GuidePolicy::GuidePolicy(const AgentParameters& parameters, const GuideNeeds& needs, double time)
+    : needs_{needs},
       goal_tolerance_{parameters.team.goal_tolerance},
-      cost_to_go_{parameters.guide, parameters.robot.radius},
+      cost_to_go_{for_robot(parameters, needs)},
       next_time_{time} {}
 
-void GuidePolicy::reconfigure(const AgentParameters& parameters, bool approaches_cut_off_goal) {
-  approaches_cut_off_goal_ = approaches_cut_off_goal;
+void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeeds& needs) {
+  needs_ = needs;
   goal_tolerance_ = parameters.team.goal_tolerance;
-  CostToGo wanted{parameters.guide, parameters.robot.radius};
-  if (wanted.clearance() == cost_to_go_.clearance() && wanted.resolution() == cost_to_go_.resolution())
+  CostToGo wanted = for_robot(parameters, needs);
+  if (wanted.clearance() == cost_to_go_.clearance() &&
+      wanted.least_clearance() == cost_to_go_.least_clearance() &&
+      wanted.resolution() == cost_to_go_.resolution())
     return;
   cost_to_go_ = std::move(wanted);
   goal_.reset();
@@ -33,7 +44,7 @@ void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vec
   cost_to_go_.update(map, goal_world, here);
   // Without a path to the goal the robot goes as near as the shortest path through the walls leads, and waits
   // there.
-  cut_off_ = cost_to_go_.outcome() == CostToGoOutcome::unreachable && approaches_cut_off_goal_;
+  cut_off_ = cost_to_go_.outcome() == CostToGoOutcome::unreachable && needs_.approaches_cut_off_goal;
   if (cut_off_) cost_to_go_.update(map, last_free_position(map, here), here);
   goal_ = goal_world;
   update_time_ = time;
@@ -50,7 +61,8 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
     const int steps = std::max(1, static_cast<int>(leg.norm() / step));
     for (int k = 1; k <= steps; ++k) {
       const Eigen::Vector2d position = corners_[i - 1] + leg * (static_cast<double>(k) / steps);
-      if (map.distance(position) < cost_to_go_.clearance()) return last;
+      const double room = needs_.passes_narrow_gaps ? map.exact_distance(position) : map.distance(position);
+      if (room < cost_to_go_.least_clearance()) return last;
       last = position;
     }
   }
@@ -60,9 +72,8 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
 bool GuidePolicy::path_clear(const OccupancyMap& map, const Eigen::Vector2d& here) {
   if (!cost_to_go_.ready() || cost_to_go_.outcome() == CostToGoOutcome::unreachable) return false;
   cost_to_go_.shortest_path(here, corners_);
-  const double clearance = cost_to_go_.clearance() - 0.5 * map.frame().resolution;  // it grazes its corners
   for (std::size_t i = 1; i < corners_.size(); ++i)
-    if (!map.segment_clear(corners_[i - 1], corners_[i], clearance)) return false;
+    if (!cost_to_go_.passable(map, corners_[i - 1], corners_[i])) return false;
   return true;
 }
 

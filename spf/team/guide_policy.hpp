@@ -13,13 +13,22 @@
 
 namespace spf {
 
+/// What a method wants of the guide: see Planner.
+struct GuideNeeds {
+  bool approaches_cut_off_goal = true;
+  bool passes_narrow_gaps = false;
+
+  [[nodiscard]] static GuideNeeds of(const Planner& planner) {
+    return {planner.approaches_cut_off_goal(), planner.passes_narrow_gaps()};
+  }
+};
+
 class GuidePolicy {
  public:
-  /// `approaches_cut_off_goal`: see Planner.
-  GuidePolicy(const AgentParameters& parameters, bool approaches_cut_off_goal, double time);
+  GuidePolicy(const AgentParameters& parameters, const GuideNeeds& needs, double time);
 
   /// Other parameters from now on; a guide with another clearance or resolution is computed anew.
-  void reconfigure(const AgentParameters& parameters, bool approaches_cut_off_goal);
+  void reconfigure(const AgentParameters& parameters, const GuideNeeds& needs);
 
   /// Brings the guide up to date where that is due, for a robot at `here`.
   void refresh(double time, const OccupancyMap& map, const Eigen::Vector2d& goal_world,
@@ -42,7 +51,7 @@ class GuidePolicy {
   [[nodiscard]] bool path_clear(const OccupancyMap& map, const Eigen::Vector2d& here);
   [[nodiscard]] Eigen::Vector2d last_free_position(const OccupancyMap& map, const Eigen::Vector2d& here);
 
-  bool approaches_cut_off_goal_;
+  GuideNeeds needs_;
   double goal_tolerance_;  // [m]
   CostToGo cost_to_go_;
   std::vector<Eigen::Vector2d> corners_;  // [m] kept for its memory

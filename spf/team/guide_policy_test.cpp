@@ -15,7 +15,7 @@ const Eigen::Vector2d kHere{-4.0, 0.0};
 const Eigen::Vector2d kGoal{4.0, 0.0};
 
 TEST(GuidePolicy, LeadsToTheGoalAndFollowsANewOneAtOnce) {
-  GuidePolicy guide{AgentParameters{}, true, 0.0};
+  GuidePolicy guide{AgentParameters{}, {true}, 0.0};
   const OccupancyMap map = empty_map();
   guide.refresh(0.0, map, kGoal, kHere);
   EXPECT_NEAR(guide.cost_to_go().cost_to_go(kHere), 8.0, 1e-3);
@@ -26,7 +26,7 @@ TEST(GuidePolicy, LeadsToTheGoalAndFollowsANewOneAtOnce) {
 
 TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLater) {
   for (const bool blocks : {true, false}) {
-    GuidePolicy guide{AgentParameters{}, true, 0.0};
+    GuidePolicy guide{AgentParameters{}, {true}, 0.0};
     OccupancyMap map = empty_map();
     guide.refresh(0.0, map, kGoal, kHere);
     if (blocks)
@@ -45,7 +45,7 @@ TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLate
 
 TEST(GuidePolicy, LeadsAsNearToAWalledInGoalAsAWayDoesWhereTheMethodWantsThat) {
   const OccupancyMap map = map_of(kRing);
-  GuidePolicy guide{AgentParameters{}, true, 0.0};
+  GuidePolicy guide{AgentParameters{}, {true}, 0.0};
   guide.refresh(0.0, map, kGoal, kHere);
   EXPECT_TRUE(guide.cut_off());
   EXPECT_TRUE(guide.goal_out_of_reach(kHere));
@@ -56,7 +56,7 @@ TEST(GuidePolicy, LeadsAsNearToAWalledInGoalAsAWayDoesWhereTheMethodWantsThat) {
 }
 
 TEST(GuidePolicy, LeavesAWalledInGoalToAMethodThatStands) {
-  GuidePolicy guide{AgentParameters{}, false, 0.0};
+  GuidePolicy guide{AgentParameters{}, {false}, 0.0};
   guide.refresh(0.0, map_of(kRing), kGoal, kHere);
   EXPECT_FALSE(guide.cut_off());
   EXPECT_EQ(guide.cost_to_go().outcome(), CostToGoOutcome::unreachable);
@@ -64,7 +64,7 @@ TEST(GuidePolicy, LeavesAWalledInGoalToAMethodThatStands) {
 }
 
 TEST(GuidePolicy, AGoalOnBlockedGroundIsOutOfReachOnlyForARobotThatIsAsNearAsItGets) {
-  GuidePolicy guide{AgentParameters{}, true, 0.0};
+  GuidePolicy guide{AgentParameters{}, {true}, 0.0};
   guide.refresh(0.0, map_of({{{3.0, -1.0}, {5.0, 1.0}}}), {3.2, 0.0}, kHere);
   ASSERT_EQ(guide.cost_to_go().outcome(), CostToGoOutcome::goal_moved);
   EXPECT_FALSE(guide.goal_out_of_reach(kHere));
@@ -72,7 +72,7 @@ TEST(GuidePolicy, AGoalOnBlockedGroundIsOutOfReachOnlyForARobotThatIsAsNearAsItG
 }
 
 TEST(GuidePolicy, SaysHowTheMapLetsTheRobotComeToItsGoal) {
-  GuidePolicy guide{AgentParameters{}, true, 0.0};
+  GuidePolicy guide{AgentParameters{}, {true}, 0.0};
   EXPECT_FALSE(guide.access(kGoal).has_value());
   guide.refresh(0.0, empty_map(), kGoal, kHere);
   EXPECT_EQ(guide.access(kGoal), GoalAccess::open);
@@ -80,7 +80,7 @@ TEST(GuidePolicy, SaysHowTheMapLetsTheRobotComeToItsGoal) {
   guide.refresh(10.0, map_of({{{3.0, -1.0}, {5.0, 1.0}}}), {3.2, 0.0}, kHere);
   EXPECT_EQ(guide.access({3.2, 0.0}), GoalAccess::blocked);
   for (const bool approaches : {true, false}) {
-    GuidePolicy of_method{AgentParameters{}, approaches, 0.0};
+    GuidePolicy of_method{AgentParameters{}, {approaches}, 0.0};
     of_method.refresh(0.0, map_of(kRing), kGoal, kHere);
     EXPECT_EQ(of_method.access(kGoal), GoalAccess::cut_off) << approaches;
   }
@@ -88,12 +88,12 @@ TEST(GuidePolicy, SaysHowTheMapLetsTheRobotComeToItsGoal) {
 
 TEST(GuidePolicy, TakesAnotherClearanceAtOnce) {
   AgentParameters parameters;
-  GuidePolicy guide{parameters, true, 0.0};
+  GuidePolicy guide{parameters, {true}, 0.0};
   const OccupancyMap map = map_of({{{-0.5, 0.7}, {0.5, 10.0}}, {{-0.5, -10.0}, {0.5, -0.7}}});
   guide.refresh(0.0, map, kGoal, kHere);  // a gap of 1.4 m
   EXPECT_EQ(guide.access(kGoal), GoalAccess::open);
   parameters.guide.clearance = 0.5;
-  guide.reconfigure(parameters, true);
+  guide.reconfigure(parameters, {true});
   EXPECT_FALSE(guide.access(kGoal).has_value());
   guide.refresh(0.01, map, kGoal, kHere);
   EXPECT_EQ(guide.access(kGoal), GoalAccess::cut_off);

@@ -59,7 +59,7 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       parameters{within_drive(validated(agent_parameters))},
       beliefs{robot_id, parameters, map},
       planner{parameters.make_planner(parameters)},
-      guide{parameters, planner->approaches_cut_off_goal(), time},
+      guide{parameters, GuideNeeds::of(*planner), time},
       commitment{parameters, start, time},
       announcement{robot_id, parameters, time},
       schedule{parameters.team.plan_period, time} {
@@ -72,7 +72,7 @@ void RobotAgent::Implementation::reconfigure(const AgentParameters& changed) {
   too_fast = too_fast || wanted.robot.max_speed < parameters.robot.max_speed;
   parameters = wanted;
   planner = std::move(made);
-  guide.reconfigure(parameters, planner->approaches_cut_off_goal());
+  guide.reconfigure(parameters, GuideNeeds::of(*planner));
   commitment.reconfigure(parameters);
   announcement.reconfigure(parameters);
 }

@@ -24,6 +24,7 @@ class SpaceTimePlanner final : public Planner {
   /// The current plan is kept while it is the best. The outcome is that of the clearance check (PlanJudge); a
   /// choice that fails it is driven all the same, as the one with the least cost.
   void plan(const PlanRequest& request, PlanResult& result) override;
+  [[nodiscard]] bool passes_narrow_gaps() const override { return true; }
 
  private:
   /// Cost of a roll-out in seconds, split for the record.

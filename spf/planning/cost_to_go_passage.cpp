@@ -1,0 +1,179 @@
+// What CostToGo knows of clearances: lines of sight, and ways through narrow gaps.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "spf/planning/cost_to_go.hpp"
+
+namespace spf {
+namespace {
+
+/// Lines of sight may pass this much nearer than the clearance, in cells of the map: the error of bilinear
+/// interpolation and of the steps between nodes.
+constexpr double kSightSlack = 0.25;
+constexpr double kNarrowSlack = 0.1;  // likewise by exact distances
+/// [1] A metre at the least clearance costs so many more: the robot creeps there.
+constexpr double kNarrowCost = 3.0;
+constexpr int kBendRounds = 3;  // a way between neighbours bends 7 times at most
+
+}  // namespace
+
+/// What the straight way between two positions costs beyond its length [m]; none = it is blocked.
+std::optional<double> CostToGo::view(const OccupancyMap& map, const Eigen::Vector2d& from,
+                                     const Eigen::Vector2d& to) const {
+  if (narrow()) return narrow_view(map, from, to);
+  if (!map.segment_clear(window_.origin_world + from, window_.origin_world + to,
+                         clearance_ - kSightSlack * map.frame().resolution))
+    return std::nullopt;
+  return 0.0;
+}
+
+std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen::Vector2d& from,
+                                            const Eigen::Vector2d& to) const {
+  const double cell = map.frame().resolution;
+  const double least = least_clearance_ - kNarrowSlack * cell;
+  const double wanted = clearance_ - kSightSlack * cell;
+  const double length = (to - from).norm();
+  const Eigen::Vector2d start = window_.origin_world + from;
+  const Eigen::Vector2d direction =
+      length > 0.0 ? Eigen::Vector2d{(to - from) / length} : Eigen::Vector2d{0, 0};
+  double cost = 0.0;
+  for (double travelled = 0.0;;) {
+    const Eigen::Vector2d here = start + travelled * direction;
+    double room = map.distance(here);
+    // It reads up to half a cell too little, or a little too much beside a corner.
+    if (room < least + 0.1 * cell) room = map.exact_distance(here);
+    if (!(room >= least)) return std::nullopt;
+    if (travelled >= length) return cost;
+    const double step = std::min(std::max(room - wanted, 0.5 * cell), length - travelled);
+    const double lack = (wanted - room) / std::max(wanted - least, 1e-9);
+    if (lack > 0.0) cost += kNarrowCost * lack * lack * step;
+    travelled = step < length - travelled ? travelled + step : length;
+  }
+}
+
+bool CostToGo::passable(const OccupancyMap& map, const Eigen::Vector2d& from_world,
+                        const Eigen::Vector2d& to_world) const {
+  if (narrow())
+    return narrow_view(map, from_world - window_.origin_world, to_world - window_.origin_world).has_value();
+  return map.segment_clear(from_world, to_world, clearance_ - 0.5 * map.frame().resolution);
+}
+
+/// The place within half a cell of a node that is roomiest, or the first that keeps the wanted clearance; and
+/// how much room is there [m].
+Eigen::Vector2d CostToGo::roomiest(const OccupancyMap& map, const Eigen::Vector2d& node_world,
+                                   double& room) const {
+  const double reach = 0.5 * window_.resolution;
+  // Distances grow by a metre a metre at most.
+  room = map.exact_distance(node_world);
+  if (room + std::sqrt(2.0) * reach < least_clearance_) return node_world;
+  Eigen::Vector2d best = node_world;
+  for (double step = 0.5 * reach; step > 0.05 * reach;) {
+    Eigen::Vector2d better = best;
+    for (const auto& [x, y] : std::array<std::pair<int, int>, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}}) {
+      const Eigen::Vector2d trial = best + step * Eigen::Vector2d{x, y};
+      if ((trial - node_world).lpNorm<Eigen::Infinity>() > reach) continue;
+      const double there = map.exact_distance(trial);
+      if (there <= room + 1e-3 * step) continue;
+      room = there;
+      better = trial;
+    }
+    if (room >= clearance_) return better;
+    if (better == best) step *= 0.5;
+    best = better;
+  }
+  return best;
+}
+
+/// Where the straight way between two positions is narrowest, moved aside to the middle of the gap there;
+/// none when the gap is too narrow.
+std::optional<Eigen::Vector2d> CostToGo::middle_of_gap(const OccupancyMap& map, const Eigen::Vector2d& from,
+                                                       const Eigen::Vector2d& to) const {
+  constexpr int kLooks = 8;
+  const Eigen::Vector2d along = to - from;
+  const double length = along.norm();
+  if (!(length > 0.0)) return std::nullopt;
+  const auto room_at = [&](const Eigen::Vector2d& local) {
+    return map.exact_distance(window_.origin_world + local);
+  };
+  Eigen::Vector2d narrowest = from;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 1; k < kLooks; ++k) {
+    const Eigen::Vector2d local = from + along * (static_cast<double>(k) / kLooks);
+    const double room = room_at(local);
+    if (room >= least) continue;
+    least = room;
+    narrowest = local;
+  }
+  const double reach = window_.resolution;
+  if (least + reach < least_clearance_) return std::nullopt;
+  const Eigen::Vector2d aside{-along.y() / length, along.x() / length};
+  Eigen::Vector2d best = narrowest;
+  double most = least;
+  for (double step = reach / kLooks; step > 0.01 * reach; step *= 0.25) {
+    const Eigen::Vector2d middle = best;
+    for (int k = -kLooks; k <= kLooks; ++k) {
+      const Eigen::Vector2d local = middle + k * step * aside;
+      const double room = room_at(local);
+      if (room <= most) continue;
+      most = room;
+      best = local;
+    }
+  }
+  if (most < least_clearance_ || best == narrowest) return std::nullopt;
+  return best;
+}
+
+/// Finds a way between two neighbours that do not see each other; its bends from `from` on are left in the
+/// wavefront.
+bool CostToGo::bend_between(const OccupancyMap& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  std::vector<Eigen::Vector2d>& way = wavefront_.bend;
+  way.assign({from, to});
+  for (int round = 0; round <= kBendRounds; ++round) {
+    bool clear = true;
+    for (std::size_t leg = 0; leg + 1 < way.size(); ++leg) {
+      if (narrow_view(map, way[leg], way[leg + 1])) continue;
+      if (round == kBendRounds) return false;
+      clear = false;
+      const std::optional<Eigen::Vector2d> bend = middle_of_gap(map, way[leg], way[leg + 1]);
+      if (!bend) return false;
+      way.insert(way.begin() + static_cast<std::ptrdiff_t>(leg) + 1, *bend);
+      ++leg;
+    }
+    if (clear) return true;
+  }
+  return false;
+}
+
+/// The first bend of the way that bend_between() has found, which leads to a settled node, as a parent. The
+/// others become nodes of their own, each the parent of the one before.
+CostToGo::Node CostToGo::parent_around_bend(const OccupancyMap& map, std::int32_t index) {
+  const std::vector<Eigen::Vector2d>& way = wavefront_.bend;
+  std::int32_t parent_node = index;
+  double cost = static_cast<double>(own_cost(wavefront_.nodes[static_cast<std::size_t>(index)], index));
+  for (std::size_t k = way.size() - 2; k >= 1; --k) {
+    const Eigen::Vector2d& parent = way[k + 1];
+    const double extra = narrow_view(map, way[k], parent).value_or(0.0);
+    const auto base = static_cast<float>(cost + extra);
+    wavefront_.nodes.push_back(
+        {static_cast<float>(parent.x()), static_cast<float>(parent.y()), base, parent_node});
+    wavefront_.surcharge.push_back(static_cast<float>(extra));
+    place_.push_back(way[k].cast<float>());
+    parent_node = static_cast<std::int32_t>(wavefront_.nodes.size()) - 1;
+    cost += (way[k] - parent).norm() + extra;
+  }
+  return {static_cast<float>(way[1].x()), static_cast<float>(way[1].y()), static_cast<float>(cost),
+          parent_node};
+}
+
+/// The nearby position that just keeps the clearance.
+Eigen::Vector2d CostToGo::at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const {
+  Eigen::Vector2d position = window_.origin_world + local;
+  for (int step = 0; step < 2; ++step) {
+    const double excess = map.distance(position) - clearance_;
+    position -= std::clamp(excess, -window_.resolution, window_.resolution) * map.distance_gradient(position);
+  }
+  return position - window_.origin_world;
+}
+
+}  // namespace spf
