@@ -19,7 +19,7 @@ Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d&
 }  // namespace
 
 Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
-                              const RollOutSettings& settings) {
+                              const RollOutSettings& settings, double pace) {
   const Eigen::Vector2d direction = guide.direction(position_world);
   const double distance = guide.cost_to_go(position_world);
   // The velocity v at the end of a step, from step * v + v^2 / (2 acceleration) = distance: the step and
@@ -28,7 +28,7 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostT
   const double stoppable =
       acceleration *
       (std::sqrt(settings.step * settings.step + 2.0 * distance / acceleration) - settings.step);
-  const double speed = std::min({settings.max_speed, stoppable, distance / (2.0 * settings.step)});
+  const double speed = std::min({pace * settings.max_speed, stoppable, distance / (2.0 * settings.step)});
   return direction * speed;
 }
 
@@ -53,8 +53,9 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Cos
       first = false;
       switch (primitive.then) {
         case MotionPrimitive::Then::goal:
-          if (entering) follow = guide.cost_to_go(position) < near;
-          if (entering || follow || k % 5 == 0) target = goal_velocity(position, guide, settings);
+          if (entering) follow = primitive.pace < 1.0 || guide.cost_to_go(position) < near;
+          if (entering || follow || k % 5 == 0)
+            target = goal_velocity(position, guide, settings, primitive.pace);
           break;
         case MotionPrimitive::Then::hold:
           break;

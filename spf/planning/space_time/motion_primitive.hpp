@@ -19,6 +19,7 @@ struct MotionPrimitive {
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s] taken up first
   double until = 0.0;                                        ///< [s] from the start; 0 = straight to `then`
   Then then = Then::goal;
+  double pace = 1.0;  ///< [1] of max_speed, on the way to the goal; below 1 it follows every bend
 };
 
 /// Positions and velocities at steps of dt; the acceleration is constant within a step.
@@ -37,9 +38,9 @@ struct RollOutSettings {
 };
 
 /// Velocity towards the goal from a position: along the guide at max_speed, slower where the robot has to
-/// stop at the goal.
+/// stop at the goal. `pace` [1] of max_speed.
 [[nodiscard]] Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
-                                            const RollOutSettings& settings);
+                                            const RollOutSettings& settings, double pace = 1.0);
 
 /// Rolls a primitive out from a head state (its acceleration is not continued).
 void roll_out(const MotionPrimitive& primitive, const FlatState& head, const CostToGo& guide,

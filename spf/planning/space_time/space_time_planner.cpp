@@ -14,29 +14,33 @@ Eigen::Vector2d between(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
   return (1.0 - share) * from + share * to;
 }
 
-/// Least distance to static surfaces along a roll-out and along the way on which the robot then stops [m]. It
-/// looks so often that no surface lies between two places that are both free of it.
-double least_distance(const OccupancyMap& map, const RollOut& roll_out, const Eigen::Vector2d& stop,
-                      double spacing) {
-  double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to, int parts) {
-    for (int i = 1; i <= parts; ++i)
-      least = std::min(least, map.distance(between(from, to, static_cast<double>(i) / parts)));
+/// Calls look(position, speed) along a roll-out and along the way on which the robot then stops, so often
+/// that no surface lies between two places that are both free of it.
+template <class Look>
+void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spacing, const Look& look) {
+  const auto look_between = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed,
+                                double end_speed, int least_parts) {
+    const int parts = std::max(least_parts, static_cast<int>(std::ceil((to - from).norm() / spacing)));
+    for (int i = 1; i <= parts; ++i) {
+      const double share = static_cast<double>(i) / parts;
+      look(between(from, to, share), speed + share * (end_speed - speed));
+    }
   };
-  const auto parts = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-    return std::max(1, static_cast<int>(std::ceil((to - from).norm() / spacing)));
-  };
+  double speed = roll_out.velocity_world[0].norm();
   for (int k = 1; k <= roll_out.steps; ++k) {
-    const Eigen::Vector2d& from = roll_out.position_world[static_cast<std::size_t>(k - 1)];
-    const Eigen::Vector2d& to = roll_out.position_world[static_cast<std::size_t>(k)];
-    look(from, to, parts(from, to));
+    const auto at = static_cast<std::size_t>(k);
+    const double next = roll_out.velocity_world[at].norm();
+    look_between(roll_out.position_world[at - 1], roll_out.position_world[at], speed, next, 1);
+    speed = next;
   }
-  const Eigen::Vector2d& end = roll_out.position_world[static_cast<std::size_t>(roll_out.steps)];
-  look(end, stop, std::max(2, parts(end, stop)));
-  return least;
+  look_between(roll_out.position_world[static_cast<std::size_t>(roll_out.steps)], stop, speed, 0.0, 2);
 }
 
-constexpr double kSlowFraction = 0.5;  // [1] of max_speed: the second speed of the sidesteps
+constexpr std::array<double, 3> kPaces{0.5, 0.25,
+                                       0.12};  // [1] of max_speed: along the guide, where it is tight
+constexpr double kSurfaceSigmas = 4.0;         // [1] as far from a surface there is no risk
+constexpr double kStillPace = 0.15;            // [1] of max_speed: below, slower is not more exact
+constexpr double kSlowFraction = 0.5;          // [1] of max_speed: the second speed of the sidesteps
 constexpr double kEarlyProgress =
     0.3;  // [1] weight of the way to go at instants before the horizon: no putting off
 constexpr int kProgressSamples = 3;
@@ -60,17 +64,28 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
   settings_ = settings_of(parameters_, robot_, risk_.steps());
 }
 
-/// Static surfaces: the probability that the own position error reaches one. It is not discounted: a wall
+/// Static surfaces: the probability that the own error across the way reaches one. A slow robot keeps its way
+/// more exactly, so it may pass where a fast one may not. It is not discounted: a wall
 /// will still be there, and a discounted risk would be put off for ever.
 double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
                                         const PlanRequest& request) const {
   const OccupancyMap& map = *request.world.map;
-  const double softness = std::hypot(parameters_.static_sigma, request.position_sigma);
   const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
-  const double clearance = least_distance(map, roll_out, stop, robot_.radius) - wanted_clearance;
+  const double full_softness = std::hypot(parameters_.static_sigma, request.position_sigma);
+  double least_clearance = std::numeric_limits<double>::infinity();
+  double least_sigmas = kSurfaceSigmas;
+  look_along(roll_out, stop, robot_.radius, [&](const Eigen::Vector2d& position, double speed) {
+    double clearance = map.distance(position) - wanted_clearance;
+    if (clearance > kSurfaceSigmas * full_softness) return;
+    clearance = map.exact_distance(position) - wanted_clearance;
+    least_clearance = std::min(least_clearance, clearance);
+    const double pace = std::min(1.0, kStillPace + speed / robot_.max_speed);
+    least_sigmas = std::min(least_sigmas,
+                            clearance / std::hypot(pace * parameters_.static_sigma, request.position_sigma));
+  });
   // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
-  const double depth = std::max(0.0, -clearance) / wanted_clearance;
-  return clearance > 4.0 * softness ? 0.0 : normal_tail(clearance / softness) + depth;
+  const double depth = std::max(0.0, -least_clearance) / wanted_clearance;
+  return least_sigmas >= kSurfaceSigmas ? 0.0 : normal_tail(least_sigmas) + depth;
 }
 
 SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
@@ -188,6 +203,7 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
   consider({still, 0.0, MotionPrimitive::Then::brake}, request, result, slow ? parameters_.stand_bonus : 0.0);
   consider({still, parameters_.short_sidestep, MotionPrimitive::Then::goal}, request, result);
   consider({still, parameters_.long_sidestep, MotionPrimitive::Then::goal}, request, result);
+  for (const double pace : kPaces) consider({still, 0.0, MotionPrimitive::Then::goal, pace}, request, result);
   consider_sidesteps(request, result);
 }
 
