@@ -7,6 +7,7 @@
 
 #include "sim/geometry.hpp"
 #include "sim/pedestrian_scene.hpp"
+#include "sim/tight_scenes.hpp"
 #include "sim/uniform_grid.hpp"
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
@@ -240,6 +241,10 @@ bool draw_scene(Family family, RandomStream& random, const LayoutParameters& lay
       return draw_swap(random, layout, scenario);
     case Family::field:
       return draw_field(random, layout, scenario);
+    case Family::clutter:
+      return draw_clutter(random, layout, scenario);
+    case Family::doors:
+      return draw_doors(random, layout, scenario);
     case Family::ped:
       break;  // nothing is drawn: place_among_people()
   }
@@ -299,6 +304,17 @@ void make_pedestrian(FamilySetup& setup) {
   setup.simulation.trial.latest_arrival = 2.0;
 }
 
+void make_tight(FamilySetup& setup) {
+  setup.layout.robots = 1;
+  setup.layout.squares = setup.layout.discs = 0;
+  if (setup.family == Family::doors) return;
+  setup.robot.max_speed = 2.0;
+  setup.robot.max_wheel_speed = 3.0;
+  setup.simulation.sensing.map = MapKnowledge::sensed;
+  setup.simulation.trial.time_limit = 100.0;
+  setup.simulation.trial.arrival_distance = 0.5;
+}
+
 }  // namespace
 
 FamilySetup family_setup(Family family) {
@@ -330,6 +346,10 @@ FamilySetup family_setup(Family family) {
       break;
     case Family::ped:
       make_pedestrian(setup);
+      break;
+    case Family::clutter:
+    case Family::doors:
+      make_tight(setup);
       break;
   }
   return setup;

@@ -22,6 +22,8 @@ enum class Family {
   swap,     ///< robots on a circle exchange positions
   field,    ///< equal density for any number of robots
   ped,      ///< robots cross a recorded crowd
+  clutter,  ///< one robot among pillars between two walls
+  doors,    ///< one robot through one door
 };
 
 }  // namespace spf::sim
@@ -29,14 +31,16 @@ enum class Family {
 namespace spf {
 template <>
 struct EnumNames<sim::Family> {
-  static constexpr std::array<std::pair<sim::Family, const char*>, 7> values{
+  static constexpr std::array<std::pair<sim::Family, const char*>, 9> values{
       {{sim::Family::t2, "t2"},
        {sim::Family::t2_hard, "t2_hard"},
        {sim::Family::f7, "f7"},
        {sim::Family::p8, "p8"},
        {sim::Family::swap, "swap"},
        {sim::Family::field, "field"},
-       {sim::Family::ped, "ped"}}};
+       {sim::Family::ped, "ped"},
+       {sim::Family::clutter, "clutter"},
+       {sim::Family::doors, "doors"}}};
 };
 }  // namespace spf
 
@@ -60,6 +64,13 @@ struct LayoutParameters {
   double circle_per_robot = 1.5;  ///< [m] of circumference (swap: 1.5 crowded, 5 wide)
   double window = 60.0;           ///< [s] of a recording, for each trial (ped)
   double window_spacing = 5.0;    ///< [s] from the beginning of a window to that of the next (ped)
+  double fill_low = 0.19;         ///< [1] of the lattice before it is smoothed (clutter)
+  double fill_high = 0.27;
+  double passable_radius = 0.35;     ///< [m] of a disc that gets through (clutter)
+  double door_width_low = 0.7;       ///< [m] (doors)
+  double door_width_high = 1.2;      ///< [m]
+  double wall_thickness_low = 0.05;  ///< [m] (doors)
+  double wall_thickness_high = 0.4;  ///< [m]
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -83,6 +94,15 @@ struct LayoutParameters {
     visit("window", self.window, "s", Range{1.0, 1e5}, "part of the recording that a trial is (ped)");
     visit("window_spacing", self.window_spacing, "s", Range{0.1, 1e5},
           "from the beginning of a trial's window to that of the next (ped)");
+    visit("fill_low", self.fill_low, "1", Range{0.0, 1.0},
+          "least share of pillars before smoothing (clutter)");
+    visit("fill_high", self.fill_high, "1", Range{0.0, 1.0}, "largest share of pillars (clutter)");
+    visit("passable_radius", self.passable_radius, "m", Range{0.0, 2.0},
+          "radius of a disc that gets through (clutter)");
+    visit("door_width_low", self.door_width_low, "m", Range{0.01, 10.0}, "narrowest door (doors)");
+    visit("door_width_high", self.door_width_high, "m", Range{0.01, 10.0}, "widest door (doors)");
+    visit("wall_thickness_low", self.wall_thickness_low, "m", Range{0.01, 5.0}, "thinnest wall (doors)");
+    visit("wall_thickness_high", self.wall_thickness_high, "m", Range{0.01, 5.0}, "thickest wall (doors)");
   }
 };
 

@@ -1,0 +1,16 @@
+// Scenes in which one robot has to find the passages that it fits through (docs/protocol.md). Frame: world.
+#pragma once
+
+#include "sim/families.hpp"
+#include "spf/math/random_stream.hpp"
+
+namespace spf::sim {
+
+/// CLUTTER: pillars between two walls, on a lattice filled by a cellular automaton. False when no way through
+/// is as wide as the layout wants.
+[[nodiscard]] bool draw_clutter(RandomStream& random, const LayoutParameters& layout, Scenario& scenario);
+
+/// DOORS: a wall with one door across the way.
+[[nodiscard]] bool draw_doors(RandomStream& random, const LayoutParameters& layout, Scenario& scenario);
+
+}  // namespace spf::sim
