@@ -29,7 +29,8 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostT
       acceleration *
       (std::sqrt(settings.step * settings.step + 2.0 * distance / acceleration) - settings.step);
   const double speed = std::min({pace * settings.max_speed, stoppable, distance / (2.0 * settings.step)});
-  return direction * speed;
+  return direction *
+         (settings.passage != nullptr ? std::min(speed, settings.passage->limit(distance)) : speed);
 }
 
 void roll_out(const MotionPrimitive& primitive, const FlatState& head, const CostToGo& guide,
@@ -44,6 +45,7 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Cos
   Eigen::Vector2d target = primitive.velocity_world;
   bool first = primitive.until > 0.0;
   bool follow = false;
+  const bool narrow = settings.passage != nullptr && settings.passage->limits();
   for (int k = 0; k < settings.steps; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const Eigen::Vector2d position = result.position_world[at];
@@ -53,7 +55,7 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Cos
       first = false;
       switch (primitive.then) {
         case MotionPrimitive::Then::goal:
-          if (entering) follow = primitive.pace < 1.0 || guide.cost_to_go(position) < near;
+          if (entering) follow = primitive.pace < 1.0 || narrow || guide.cost_to_go(position) < near;
           if (entering || follow || k % 5 == 0)
             target = goal_velocity(position, guide, settings, primitive.pace);
           break;

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "spf/planning/cost_to_go.hpp"
+#include "spf/planning/space_time/passage_speed.hpp"
 #include "spf/planning/space_time/space_time_risk.hpp"
 #include "spf/trajectory/trajectory.hpp"
 
@@ -35,6 +36,7 @@ struct RollOutSettings {
   double max_acceleration = 1.0;  ///< [m/s^2]
   double step = 0.1;              ///< [s]
   int steps = 30;
+  const PassageSpeed* passage = nullptr;  ///< limits the speed on the way to the goal; null: nothing does
 };
 
 /// Velocity towards the goal from a position: along the guide at max_speed, slower where the robot has to

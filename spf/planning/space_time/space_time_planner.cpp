@@ -38,8 +38,6 @@ void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spa
 
 constexpr std::array<double, 3> kPaces{0.5, 0.25,
                                        0.12};  // [1] of max_speed: along the guide, where it is tight
-constexpr double kSurfaceSigmas = 4.0;         // [1] as far from a surface there is no risk
-constexpr double kStillPace = 0.15;            // [1] of max_speed: below, slower is not more exact
 constexpr double kSlowFraction = 0.5;          // [1] of max_speed: the second speed of the sidesteps
 constexpr double kEarlyProgress =
     0.3;  // [1] weight of the way to go at instants before the horizon: no putting off
@@ -48,7 +46,7 @@ constexpr double kHasteCost = 1e-3;     // [1] of collision_cost, at max_speed w
 constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter motions are not smoothed
 
 RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
-  return {robot.max_speed, robot.max_acceleration, parameters.step, steps};
+  return {robot.max_speed, robot.max_acceleration, parameters.step, steps, nullptr};
 }
 
 }  // namespace
@@ -59,6 +57,7 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
       robot_{validated(robot)},
       risk_{parameters_, robot_.radius, robot_.max_speed},
       sight_{robot_, parameters_.static_margin},
+      passage_{parameters_, robot_},
       smoother_{parameters_, planner, robot_},
       judge_{validated(planner), robot_} {
   settings_ = settings_of(parameters_, robot_, risk_.steps());
@@ -79,9 +78,8 @@ double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Ve
     if (clearance > kSurfaceSigmas * full_softness) return;
     clearance = map.exact_distance(position) - wanted_clearance;
     least_clearance = std::min(least_clearance, clearance);
-    const double pace = std::min(1.0, kStillPace + speed / robot_.max_speed);
-    least_sigmas = std::min(least_sigmas,
-                            clearance / std::hypot(pace * parameters_.static_sigma, request.position_sigma));
+    const double sigma = way_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
+    least_sigmas = std::min(least_sigmas, clearance / sigma);
   });
   // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
   const double depth = std::max(0.0, -least_clearance) / wanted_clearance;
@@ -222,6 +220,8 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   risk_.prepare(request);
   sight_.prepare(request);
   settings_.max_speed = sight_.speed();
+  passage_.prepare(request);
+  settings_.passage = &passage_;
   // 2. The current plan and the direct primitive; these suffice when the direct one is free.
   consider_previous(request, result);
   const MotionPrimitive direct{Eigen::Vector2d::Zero(), 0.0, MotionPrimitive::Then::goal};

@@ -55,6 +55,7 @@ class SpaceTimePlanner final : public Planner {
   RollOutSettings settings_;  // its max_speed is that of the plan under way
   SpaceTimeRisk risk_;
   SightLimit sight_;
+  PassageSpeed passage_;
   RollOut trial_;
   RollOut best_;
   Score best_score_;
