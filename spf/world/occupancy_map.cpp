@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "spf/world/polygon_distances.hpp"
+
 namespace spf {
 namespace {
 
@@ -63,20 +65,19 @@ OccupancyMap::OccupancyMap(const GridFrame& frame, double max_distance)
   }
 }
 
+/// Copy on write: the layer may be changed while only this map holds it.
+std::shared_ptr<std::vector<float>> OccupancyMap::writable_layer() const {
+  if (known_ && known_.use_count() == 1)
+    return std::const_pointer_cast<std::vector<float>>(known_);  // created non-const, right here
+  if (known_) return std::make_shared<std::vector<float>>(*known_);
+  const std::size_t nodes = static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height);
+  return std::make_shared<std::vector<float>>(nodes, static_cast<float>(max_distance_));
+}
+
 template <class SignedDistance>
 void OccupancyMap::add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,
                              const SignedDistance& signed_distance) {
-  // Copy on write: the layer may be changed while only this map holds it.
-  std::shared_ptr<std::vector<float>> layer;
-  if (!known_) {
-    const std::size_t nodes =
-        static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height);
-    layer = std::make_shared<std::vector<float>>(nodes, static_cast<float>(max_distance_));
-  } else if (known_.use_count() == 1) {
-    layer = std::const_pointer_cast<std::vector<float>>(known_);  // created non-const, right here
-  } else {
-    layer = std::make_shared<std::vector<float>>(*known_);
-  }
+  std::shared_ptr<std::vector<float>> layer = writable_layer();
   for (int j = low.y(); j <= high.y(); ++j) {
     float* row = layer->data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(frame_.width);
     for (int i = low.x(); i <= high.x(); ++i) {
@@ -101,6 +102,22 @@ void OccupancyMap::add_disc(const Eigen::Vector2d& centre, double radius) {
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(radius + max_distance_ + frame_.resolution);
   add_shape(nearest_node(centre - reach), nearest_node(centre + reach),
             [&](const Eigen::Vector2d& node) { return (node - centre).norm() - radius; });
+}
+
+void OccupancyMap::add_polygon(const std::vector<Eigen::Vector2d>& corners) {
+  const auto finite = [](const Eigen::Vector2d& corner) { return corner.allFinite(); };
+  if (corners.size() < 3 || !std::all_of(corners.begin(), corners.end(), finite)) {
+    throw std::invalid_argument("polygon: needs three finite corners or more");
+  }
+  const PolygonDistances distances{frame_, corners, max_distance_};
+  std::shared_ptr<std::vector<float>> layer = writable_layer();
+  for (int j = distances.low().y(); j <= distances.high().y(); ++j) {
+    float* row = layer->data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(frame_.width);
+    for (int i = distances.low().x(); i <= distances.high().x(); ++i)
+      row[i] = std::min(row[i], distances.at(i, j));
+  }
+  known_ = std::move(layer);
+  ++revision_;
 }
 
 void OccupancyMap::add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {

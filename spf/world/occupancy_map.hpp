@@ -34,12 +34,14 @@ class OccupancyMap {
   OccupancyMap(const GridFrame& frame, double max_distance);
 
   // Known shapes: exact distance at the nodes, negative inside; each costs only the nodes within max_distance
-  // of it. Throw std::invalid_argument on numbers that are not finite, an empty rectangle or a negative
-  // radius.
+  // of it. Throw std::invalid_argument on numbers that are not finite, an empty rectangle, a negative radius
+  // or fewer than three corners.
   void add_box(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
   void add_disc(const Eigen::Vector2d& centre, double radius);
   /// The robot's world ends at these lines: outside counts as inside a wall.
   void add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+  /// A simple polygon of three corners or more; inside, at most max_distance deep.
+  void add_polygon(const std::vector<Eigen::Vector2d>& corners);
   // Likewise of rectangles in a frame that is turned and lies somewhere in the world.
   void add_box(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Pose2& frame_world);
   void add_border(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Pose2& frame_world);
@@ -128,6 +130,7 @@ class OccupancyMap {
   template <class NodeValue>
   [[nodiscard]] Patch patch_of(const Eigen::Vector2d& position_world, const NodeValue& node_value) const;
   [[nodiscard]] Eigen::Vector2d node_slope(int i, int j) const;
+  [[nodiscard]] std::shared_ptr<std::vector<float>> writable_layer() const;
   template <class SignedDistance>
   void add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,
                  const SignedDistance& signed_distance);

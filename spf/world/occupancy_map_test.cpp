@@ -101,6 +101,18 @@ TEST(OccupancyMap, KnownShapesHaveExactDistancesAtNodes) {
   }
 }
 
+TEST(OccupancyMap, APolygonOfABoxIsTheBox) {
+  OccupancyMap boxed = map_of(3.0);
+  boxed.add_box({-1.0, -0.5}, {1.5, 0.7});
+  OccupancyMap drawn = map_of(3.0);
+  drawn.add_polygon({{-1.0, -0.5}, {-1.0, 0.7}, {1.5, 0.7}, {1.5, -0.5}});
+  for (int j = 0; j < drawn.frame().height; ++j)
+    for (int i = 0; i < drawn.frame().width; ++i)
+      ASSERT_NEAR(drawn.node_distance(i, j), boxed.node_distance(i, j), kFloat) << i << ", " << j;
+  EXPECT_THROW(drawn.add_polygon({{0.0, 0.0}, {1.0, 0.0}}), std::invalid_argument);
+  EXPECT_THROW(drawn.add_polygon({{0.0, 0.0}, {1.0, 0.0}, {kInfinity, 1.0}}), std::invalid_argument);
+}
+
 TEST(OccupancyMap, GradientMatchesCentralDifferences) {
   OccupancyMap map = map_of(3.0);
   map.add_box({-1.0, -1.0}, {0.5, 0.3});
