@@ -62,6 +62,21 @@ TEST(CellMap, IsTheSameHoweverItLiesInItsFrame) {
   }
 }
 
+TEST(CellMap, IsCoveredByFewBlocks) {
+  Cells cells{{{0.0, 0.0}, 0.0}, 1.0, 40, 30};
+  cells.occupy({2.0, 3.0}, {20.0, 6.0});    // a wall along x,
+  cells.occupy({18.0, 6.0}, {20.0, 25.0});  // one along y that joins it,
+  cells.occupy({30.0, 10.0}, {31.0, 11.0});
+  EXPECT_EQ(occupied_blocks(cells.view()).size(), 3u);
+  for (std::size_t i = 0; i < cells.values.size(); i += 7) cells.values[i] = 50;  // and noise
+  std::vector<int> covered(cells.values.size(), 0);
+  for (const CellBlock& block : occupied_blocks(cells.view()))
+    for (std::size_t row = block.first_row; row < block.end_row; ++row)
+      for (std::size_t column = block.first_column; column < block.end_column; ++column)
+        ++covered[row * cells.width + column];
+  for (std::size_t i = 0; i < covered.size(); ++i) ASSERT_EQ(covered[i], cells.values[i] >= 50 ? 1 : 0) << i;
+}
+
 TEST(CellMap, IsRefusedByName) {
   const HostParameters host;
   const auto refusal = [&](const Cells& cells) -> std::string {
