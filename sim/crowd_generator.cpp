@@ -4,57 +4,25 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/walker.hpp"
 #include "spf/math/random_stream.hpp"
 
 namespace spf::sim {
 namespace {
 
-constexpr double kStep = 0.1;        // [s]
-constexpr double kRelaxation = 0.5;  // [s] in which people take up their preferred velocity
-constexpr double kLookAhead = 3.0;   // [s]
-constexpr double kUrgency = 1.0;     // [s] a meeting this far ahead counts 1/e
-constexpr double kAvoiding = 4.0;    // [m/s^2] for a meeting at once and at kBodies
-constexpr double kPush = 6.0;        // [m/s^2] at touching bodies, and
-constexpr double kPushRange = 0.12;  // [m] the distance over which it falls to 1/e
-constexpr double kBodies = 0.5;      // [m] centres of two people who touch
-constexpr double kComfort = 0.25;    // [m] beyond that over which avoiding falls to 1/e
-constexpr double kHurry = 1.3;       // [1] fastest, in wanted speeds
-constexpr double kStrongest = 4.0;   // [m/s^2] largest acceleration
-constexpr double kEntryGap = 0.9;    // [m] from others to an entering person
-constexpr double kPairGap = 0.7;     // [m] between the two of a pair
+constexpr double kStep = 0.1;      // [s]
+constexpr double kBodies = 0.5;    // [m] centres of two people who touch
+constexpr double kEntryGap = 0.9;  // [m] from others to an entering person
+constexpr double kPairGap = 0.7;   // [m] between the two of a pair
 
-struct Walker {
+struct Walker : Body {
   int id = 0;
-  Eigen::Vector2d position;             // [m]
-  Eigen::Vector2d velocity;             // [m/s]
   Eigen::Vector2d goal;                 // [m]
   double wanted_speed = 1.3;            // [m/s]
   std::optional<Eigen::Vector2d> stop;  // [m] where to stop on the way
   double stop_left = 0.0;               // [s]
   [[nodiscard]] bool standing() const { return !stop && stop_left > 0.0; }
 };
-
-/// Acceleration by which `self` avoids another: away from the other's predicted position at closest approach,
-/// the sooner and nearer the stronger; to the right when the encounter is head-on. Touching bodies push each
-/// other apart.
-Eigen::Vector2d avoidance(const Walker& self, const Walker& other) {
-  const Eigen::Vector2d apart = self.position - other.position;
-  const Eigen::Vector2d closing = self.velocity - other.velocity;
-  const double distance = apart.norm();
-  Eigen::Vector2d push = Eigen::Vector2d::Zero();
-  if (distance > 1e-9 && distance < 2.0 * kBodies)
-    push = kPush * std::exp((kBodies - distance) / kPushRange) * apart / distance;
-  const double closing_square = closing.squaredNorm();
-  if (self.standing() || closing_square < 1e-4) return push;
-  const double time = -apart.dot(closing) / closing_square;
-  if (time <= 0.0 || time > kLookAhead) return push;
-  const Eigen::Vector2d nearest = apart + time * closing;
-  const Eigen::Vector2d to_the_right = Eigen::Vector2d{closing.y(), -closing.x()} / std::sqrt(closing_square);
-  const Eigen::Vector2d way_out = nearest + 0.1 * to_the_right;
-  const double strength =
-      kAvoiding * std::exp(-time / kUrgency + std::min(0.0, kBodies - nearest.norm()) / kComfort);
-  return push + strength * way_out.normalized();
-}
 
 class Plaza {
  public:
@@ -141,21 +109,13 @@ class Plaza {
   void move() {
     std::vector<Eigen::Vector2d> accelerations;
     for (Walker& walker : walkers_) {
-      Eigen::Vector2d acceleration = (wanted_velocity(walker) - walker.velocity) / kRelaxation;
+      Eigen::Vector2d acceleration = (wanted_velocity(walker) - walker.velocity) / kWalkerRelaxation;
       for (const Walker& other : walkers_)
-        if (&other != &walker) acceleration += avoidance(walker, other);
-      const double size = acceleration.norm();
-      accelerations.push_back(size > kStrongest ? Eigen::Vector2d{acceleration * (kStrongest / size)}
-                                                : acceleration);
+        if (&other != &walker) acceleration += avoidance(walker, other, kBodies, walker.standing());
+      accelerations.push_back(within_strength(acceleration));
     }
-    for (std::size_t i = 0; i < walkers_.size(); ++i) {
-      Walker& walker = walkers_[i];
-      walker.velocity += kStep * accelerations[i];
-      const double speed = walker.velocity.norm();
-      const double fastest = kHurry * walker.wanted_speed;
-      if (speed > fastest) walker.velocity *= fastest / speed;
-      walker.position += kStep * walker.velocity;
-    }
+    for (std::size_t i = 0; i < walkers_.size(); ++i)
+      advance(walkers_[i], accelerations[i], walkers_[i].wanted_speed, kStep);
     walkers_.erase(std::remove_if(walkers_.begin(), walkers_.end(),
                                   [this](const Walker& walker) { return has_left(walker); }),
                    walkers_.end());
