@@ -25,10 +25,16 @@ std::string scene_text(const sim::Scenario& scenario) {
   add(scenario.boxes.size(), "boxes");
   add(scenario.discs.size(), "static discs");
   add(scenario.walls.size(), "walls");
+  add(scenario.polygons.size(), "polygons");
   add(scenario.moving.size(), "moving discs");
   std::set<int> people;
   for (const sim::CrowdSample& sample : scenario.crowd) people.insert(sample.id);
   add(people.size(), "recorded people");
+  if (scenario.map) {
+    const host::CellMap cells = scenario.map->cells();
+    text += ", a map of " + std::to_string(cells.width) + " x " + std::to_string(cells.height) +
+            " cells of " + fixed(cells.resolution, 3) + " m";
+  }
   if (scenario.border) {
     const Eigen::Vector2d size = scenario.border->high - scenario.border->low;
     text += ", in " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " m";

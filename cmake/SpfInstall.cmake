@@ -1,7 +1,7 @@
 # `cmake --install` puts the library where find_package(spf) finds it. The core is target spf::spf, every room of spf/ but
 # testing/, and needs Eigen alone. COMPONENTS of the package, each a folder or two of the repository:
 #   host        spf::host, spf::config     robots' hosts, and parameter files for them (needs yaml-cpp)
-#   simulator   spf::sim, spf::study       the world, and scenario files for it (needs host and nlohmann-json)
+#   simulator   spf::sim, spf::study       the world, and scenario files for it (needs host, libpng and nlohmann-json)
 # Experiments and reports are not part of the package.
 include(CMakePackageConfigHelpers)
 

@@ -68,6 +68,10 @@ class ParameterRowCollector {
     Entry::visit_fields(entry, *this);
     prefix_ = outer;
   }
+  template <class Number>
+  void values(const char* name, const std::vector<Number>&, const char* unit, Range range, const char* what) {
+    rows_.push_back({prefix_ + name, "[]", unit, "list of " + to_text(range), what});
+  }
   void required(const char*) {}
   [[nodiscard]] std::vector<ParameterRow> take() { return std::move(rows_); }
 

@@ -131,8 +131,10 @@ class FieldReader {
   }
   template <class Number>
   void values(const char* name, std::vector<Number>& numbers, const char* unit, Range range, const char*) {
-    read_values(name, numbers,
-                [&](const ReadTarget& target, Number& value) { read_value(target, unit, range, value); });
+    read_values(name, numbers, [&](const ReadTarget& target, Number& value) {
+      if constexpr (std::is_same_v<Number, Eigen::Vector2d>) value.setZero();
+      read_value(target, unit, range, value);
+    });
   }
   template <class Choice>
   void values(const char* name, std::vector<Choice>& choices, const char*) {

@@ -36,7 +36,7 @@ std::string changes_text(const RunConfiguration& base, const RunConfiguration& c
   const bool same_method = base.method == changed.method;
   std::string text;
   for (const ParameterRow& row : differences(base, changed)) {
-    if (row.key == "family" || row.key == "method" || row.key == "crowd" ||
+    if (row.key == "family" || row.key == "method" || row.key.starts_with("crowd") ||
         (same_method && row.key.starts_with("agent.")))
       continue;
     text += (text.empty() ? "" : ", ") + std::string{"`"} + row.key + ": " + row.value + "`";
@@ -77,8 +77,6 @@ std::vector<ParameterRow> all_parameters() {
     if (row.key == "robots") row.what += " (family: explicit)";
     if (row.key == "robots" || !known.contains(row.key)) of_scene.push_back(std::move(row));
   }
-  for (const ParameterRow& row : parameter_rows(default_run_configuration({sim::Family::ped}, standard)))
-    if (row.key == "crowd") of_scene.push_back(row);
   for (ParameterRow& row : of_scene)
     if (row.value == to_text(kUnsetPoint)) row.value = "required";
   std::size_t at = 0;
@@ -119,7 +117,8 @@ std::string parameter_page() {
     rows.clear();
   };
   for (const ParameterRow& row : all_parameters()) {
-    const bool of_scene = section_of(row.key).empty() || row.key.starts_with("border.");
+    const bool of_scene = section_of(row.key).empty() || row.key.starts_with("border.") ||
+                          row.key.starts_with("map_settings.") || row.key.starts_with("crowd_");
     const std::string next = of_scene ? "" : section_of(row.key);
     if (next != section) flush();
     section = next;

@@ -30,11 +30,17 @@ double measured(double duration) {
 
 ReplayBox bounds_of(const sim::Scenario& scenario) {
   if (scenario.border) return {point(scenario.border->low), point(scenario.border->high)};
+  if (scenario.map) {
+    const host::CellExtent extent = host::extent_of(scenario.map->cells());
+    return {point(extent.low_world), point(extent.high_world)};
+  }
   Eigen::AlignedBox2d bounds;
   for (const sim::RobotTask& task : scenario.robots)
     bounds.extend(task.start.position_world).extend(task.goal_world);
   for (const sim::Box& box : scenario.boxes) bounds.extend(box.low).extend(box.high);
   for (const sim::Disc& disc : scenario.discs) bounds.extend(disc.center);
+  for (const sim::Polygon& polygon : scenario.polygons)
+    for (const Eigen::Vector2d& corner : polygon.corners) bounds.extend(corner);
   for (const ObstacleState& disc : scenario.moving) bounds.extend(disc.position_world);
   for (const sim::CrowdSample& sample : scenario.crowd) bounds.extend(sample.position_world);
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1.0 + scenario.robot.radius);
@@ -55,11 +61,31 @@ void add_wall(std::vector<ReplayBox>& boxes, const sim::Segment& wall) {
   }
 }
 
+/// The occupied cells, as few rectangles.
+void add_map(ReplayData& data, const sim::StaticMap& map) {
+  const host::CellMap cells = map.cells();
+  const Eigen::Rotation2Dd turn{cells.origin_world.heading};
+  const auto corner = [&](std::size_t column, std::size_t row) {
+    const Eigen::Vector2d local =
+        cells.resolution * Eigen::Vector2d{static_cast<double>(column), static_cast<double>(row)};
+    return point(cells.origin_world.position_world + turn * local);
+  };
+  for (const host::CellBlock& block : host::occupied_blocks(cells))
+    data.blocks.push_back({corner(block.first_column, block.first_row),
+                           corner(block.end_column, block.first_row), corner(block.end_column, block.end_row),
+                           corner(block.first_column, block.end_row)});
+}
+
 void describe_place(ReplayData& data, const sim::Scenario& scenario) {
   data.bounds = bounds_of(scenario);
   for (const sim::Box& box : scenario.boxes) data.boxes.push_back({point(box.low), point(box.high)});
   for (const sim::Segment& wall : scenario.walls) add_wall(data.boxes, wall);
   for (const sim::Disc& disc : scenario.discs) data.discs.push_back({point(disc.center), disc.radius});
+  for (const sim::Polygon& polygon : scenario.polygons) {
+    std::vector<ReplayPoint>& corners = data.polygons.emplace_back();
+    for (const Eigen::Vector2d& position : polygon.corners) corners.push_back(point(position));
+  }
+  if (scenario.map) add_map(data, *scenario.map);
 }
 
 // ---- what moves

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "report/replay_page.hpp"
 
@@ -78,6 +80,30 @@ TEST(ReplayExport, DrawsEverythingThatStandsStill) {
   }
   EXPECT_LT(data.bounds.low.x, -1.0);
   EXPECT_GT(data.bounds.high.y, 4.0);
+}
+
+TEST(ReplayExport, DrawsPolygonsAndTheCellsOfAMap) {
+  const std::string picture = testing::TempDir() + "spf_replay_map.pgm";
+  {
+    std::ofstream file{picture};
+    file << "P2 80 60 255\n";
+    for (int row = 0; row < 60; ++row)
+      for (int column = 0; column < 80; ++column) file << (row > 20 && row < 24 ? "0 " : "255 ");
+  }
+  const auto [config, trial, data] =
+      exported("robots: [{start: [0, 0], goal: [3, 0]}]\nmap: \"" + picture +
+               "\"\nmap_settings: {image_resolution: 0.1, image_origin: [-1, -1], image_heading: 0.1}\n"
+               "polygons: [{corners: [[1, 1], [2, 1], [1.5, 1.8]]}]\n");
+  ASSERT_EQ(data.polygons.size(), 1u);
+  EXPECT_EQ(data.polygons[0][2].y, 1.8);
+  ASSERT_EQ(data.blocks.size(), 1u);  // a bar of three rows, 8 m long
+  const auto& [a, b, c, d] = data.blocks[0];
+  EXPECT_NEAR(std::hypot(b.x - a.x, b.y - a.y), 8.0, 1e-9);
+  EXPECT_NEAR(std::hypot(d.x - a.x, d.y - a.y), 0.3, 1e-9);
+  EXPECT_NEAR(std::atan2(c.y - d.y, c.x - d.x), 0.1, 1e-9);
+  EXPECT_LT(data.bounds.low.x, -1.0);  // around all of the map, which is turned
+  EXPECT_NEAR(data.bounds.low.y, -1.0, 1e-9);
+  std::filesystem::remove(picture);
 }
 
 TEST(ReplayExport, ShowsPlansTimesAndMaps) {

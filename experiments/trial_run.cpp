@@ -87,7 +87,7 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
   if (!result.contacts.empty()) record.contact = contact_of(result.contacts.front());
   record.contacts = static_cast<int>(result.contacts.size());
   record.hits_while_standing = static_cast<int>(result.hits_while_standing.size());
-  if (cell.config.recording) record.crossing = crossing_of(result);
+  if (cell.config.family.drawn == sim::Family::ped) record.crossing = crossing_of(result);
   record.sim_time = result.sim_seconds;
   record.dynamic_distance = finite_or_unknown(result.dynamic_distance);
   record.dynamic_clearance = finite_or_unknown(result.dynamic_clearance);

@@ -64,6 +64,12 @@ class Drawing {
     if (!list.empty()) list.pop_back();
     if (!list.empty()) add("<polyline points=\"" + list + "\" fill=\"none\" " + style + "/>");
   }
+  template <class Points>
+  void polygon(const Points& points, const std::string& style) {
+    std::string list;
+    for (const ReplayPoint& p : points) list += (list.empty() ? "" : " ") + px(x(p.x)) + "," + px(y(p.y));
+    add("<polygon points=\"" + list + "\" " + style + "/>");
+  }
   void label(const ReplayPoint& center, const std::string& text, double size, const std::string& style) {
     if (!is_known(center)) return;
     add("<text x=\"" + px(x(center.x)) + "\" y=\"" + px(y(center.y) + 0.35 * size) + "\" font-size=\"" +
@@ -99,6 +105,9 @@ void draw_map(Drawing& drawing, const ReplayData& data) {
   drawing.box(data.bounds, "fill=\"none\" stroke=\"" + drawing.color("control") + "\"");
   for (const ReplayBox& box : data.boxes) drawing.box(box, wall);
   for (const ReplayDisc& disc : data.discs) drawing.circle(disc.center, disc.radius, wall);
+  for (const std::vector<ReplayPoint>& polygon : data.polygons) drawing.polygon(polygon, wall);
+  const std::string block = "fill=\"" + drawing.color("wall") + "\" fill-opacity=\"0.6\"";
+  for (const std::array<ReplayPoint, 4>& corners : data.blocks) drawing.polygon(corners, block);
 }
 
 void draw_obstacle(Drawing& drawing, const ReplayObstacle& obstacle, std::size_t frame) {

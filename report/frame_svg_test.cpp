@@ -82,6 +82,22 @@ TEST(FrameSvg, MarksAContactOnlyOnceItHasHappened) {
   EXPECT_THAT(render_frame_svg(data, 0.9), testing::HasSubstr(bad));
 }
 
+TEST(FrameSvg, DrawsPolygonsAndMaps) {
+  ReplayData data = two_frames();
+  const auto polygons = [&data] {
+    const std::string svg = render_frame_svg(data, 0.0);
+    EXPECT_TRUE(is_balanced(svg));
+    std::size_t count = 0;
+    for (std::size_t at = svg.find("<polygon"); at != std::string::npos; at = svg.find("<polygon", at + 1))
+      ++count;
+    return count;
+  };
+  const std::size_t before = polygons();
+  data.polygons = {{{0.0, 0.0}, {1.0, 0.0}, {0.5, 1.0}}};
+  data.blocks = {{{{2.0, 2.0}, {3.0, 2.0}, {3.0, 2.1}, {2.0, 2.1}}}};
+  EXPECT_EQ(polygons(), before + 2);
+}
+
 TEST(FrameSvg, LeavesOutWhatIsNotKnown) {
   ReplayData data = two_frames();
   data.robots[0].frames[1].pose.x = kUnknown;

@@ -146,7 +146,9 @@ struct ReplayData {
   ReplayBox bounds{{-15.0, -15.0}, {15.0, 15.0}};
   std::vector<ReplayBox> boxes;
   std::vector<ReplayDisc> discs;
-  double field_threshold = 1.2;  ///< [1] Mahalanobis distance of the drawn outlines
+  std::vector<std::vector<ReplayPoint>> polygons;  ///< filled, each by its corners
+  std::vector<std::array<ReplayPoint, 4>> blocks;  ///< of a map of cells: filled, without an outline
+  double field_threshold = 1.2;                    ///< [1] Mahalanobis distance of the drawn outlines
   std::vector<ReplayState> states{{"moving", ReplayStateKind::moving}};
   std::vector<ReplayRobot> robots;
   std::vector<ReplayObstacle> obstacles;

@@ -262,7 +262,23 @@ json map_json(const ReplayData& data) {
   for (const ReplayDisc& d : data.discs) {
     discs.push_back(json::array({length(d.center.x), length(d.center.y), length(d.radius)}));
   }
-  return {{"bounds", box(data.bounds)}, {"boxes", std::move(boxes)}, {"discs", std::move(discs)}};
+  const auto corners = [](const auto& points) {
+    json list = json::array();
+    for (const ReplayPoint& p : points) {
+      list.push_back(length(p.x));
+      list.push_back(length(p.y));
+    }
+    return list;
+  };
+  json polygons = json::array();
+  for (const std::vector<ReplayPoint>& polygon : data.polygons) polygons.push_back(corners(polygon));
+  json blocks = json::array();
+  for (const std::array<ReplayPoint, 4>& block : data.blocks) blocks.push_back(corners(block));
+  return {{"bounds", box(data.bounds)},
+          {"boxes", std::move(boxes)},
+          {"discs", std::move(discs)},
+          {"polygons", std::move(polygons)},
+          {"blocks", std::move(blocks)}};
 }
 
 /// JSON text may spell any character of a string as \uXXXX; outside of strings these three do not occur.

@@ -62,7 +62,8 @@ StaticShapes::StaticShapes(const Scenario& scenario)
       boxes_{scenario.boxes},
       discs_{scenario.discs},
       walls_{scenario.walls},
-      grid_{kCell} {
+      grid_{kCell},
+      outlines_{scenario} {
   const auto add = [this](ContactWith kind, std::size_t index, const Eigen::Vector2d& center, double reach) {
     shapes_.push_back({kind, static_cast<int>(index)});
     centers_.push_back(center);
@@ -101,6 +102,9 @@ double StaticShapes::clearance(const Eigen::Vector2d& position_world, double rad
   grid_.visit(position_world, std::max(nearest, 0.0) + reach_, [&](int shape) {
     nearest = std::min(nearest, distance_to(shapes_[static_cast<std::size_t>(shape)], position_world));
   });
+  outlines_.visit(position_world, std::max(nearest, 0.0), [&](const Outlines::Piece& piece) {
+    nearest = std::min(nearest, distance_to_segment(position_world, piece.segment));
+  });
   return nearest - radius;
 }
 
@@ -119,12 +123,19 @@ std::optional<Contact> StaticShapes::first_contact(const Motion& motion, double 
     consider(first_below([&](double share) { return depth_inside(motion.at(share), *border_); }, radius),
              ContactWith::border, -1);
   const Eigen::Vector2d middle = 0.5 * (motion.from + motion.to);
-  const double reach = reach_ + radius + 0.5 * (motion.to - motion.from).norm();
-  grid_.visit(middle, reach, [&](int number) {
+  const double near = radius + 0.5 * (motion.to - motion.from).norm();
+  grid_.visit(middle, reach_ + near, [&](int number) {
     const Shape& shape = shapes_[static_cast<std::size_t>(number)];
     if (swept_distance_to(shape, motion) >= radius) return;
     consider(first_below([&](double share) { return distance_to(shape, motion.at(share)); }, radius),
              shape.kind, shape.index);
+  });
+  const Segment path{motion.from, motion.to};
+  outlines_.visit(middle, near, [&](const Outlines::Piece& piece) {
+    if (distance_between_segments(path, piece.segment) >= radius) return;
+    const auto distance = [&](double share) { return distance_to_segment(motion.at(share), piece.segment); };
+    consider(first_below(distance, radius), piece.polygon < 0 ? ContactWith::map : ContactWith::polygon,
+             piece.polygon);
   });
   return first;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/outlines.hpp"
 #include "sim/scenario.hpp"
 #include "sim/uniform_grid.hpp"
 #include "spf/math/parameters.hpp"
@@ -14,7 +15,7 @@
 namespace spf {
 namespace sim {
 
-enum class ContactWith { moving, person, robot, box, disc, wall, border };
+enum class ContactWith { moving, person, robot, box, disc, wall, border, polygon, map };
 
 }  // namespace sim
 
@@ -22,14 +23,16 @@ enum class ContactWith { moving, person, robot, box, disc, wall, border };
 /// pillars.
 template <>
 struct EnumNames<sim::ContactWith> {
-  static constexpr std::array<std::pair<sim::ContactWith, const char*>, 7> values{
+  static constexpr std::array<std::pair<sim::ContactWith, const char*>, 9> values{
       {{sim::ContactWith::moving, "disc"},
        {sim::ContactWith::person, "person"},
        {sim::ContactWith::robot, "robot"},
        {sim::ContactWith::box, "box"},
        {sim::ContactWith::disc, "pillar"},
        {sim::ContactWith::wall, "wall"},
-       {sim::ContactWith::border, "border"}}};
+       {sim::ContactWith::border, "border"},
+       {sim::ContactWith::polygon, "polygon"},
+       {sim::ContactWith::map, "map"}}};
 };
 
 }  // namespace spf
@@ -41,8 +44,8 @@ struct Contact {
   double time = 0.0;  ///< [s]
   int robot = -1;
   ContactWith with = ContactWith::border;
-  int other =
-      -1;  ///< robot number, id of the moving disc or person, index of the box, disc or wall; -1 = the border
+  int other = -1;  ///< robot number, id of the moving disc or person, index of the box, disc, wall or
+                   ///< polygon; -1 = the border or the map
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m] of the robot
   double robot_speed = 0.0;                                  ///< [m/s]
   double other_speed = 0.0;                                  ///< [m/s]
@@ -91,6 +94,7 @@ class StaticShapes {
   std::vector<Eigen::Vector2d> centers_;  // of the shapes
   double reach_ = 0.0;                    // [m] largest distance from a shape's centre to its surface
   UniformGrid grid_;
+  Outlines outlines_;
 };
 
 }  // namespace spf::sim

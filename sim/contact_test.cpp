@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "sim/geometry.hpp"
 #include "spf/math/random_stream.hpp"
@@ -102,6 +103,49 @@ TEST(Contact, StaticShapesMatchSampling) {
     }
   }
   EXPECT_GT(hits, 100);
+}
+
+/// A convex shape drawn as a polygon is met when and where the shape itself is.
+TEST(Contact, PolygonsAndMapsAreMetLikeBoxes) {
+  RandomStream random{23};
+  const double cell = 0.25;
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    SCOPED_TRACE(i);
+    Scenario boxed;
+    const Eigen::Vector2d low = cell * (draw(random, 1.0) / cell).array().floor().matrix();
+    boxed.boxes = {{low, low + Eigen::Vector2d{2.0 * cell, 3.0 * cell}}};
+    Scenario drawn;
+    const Box& box = boxed.boxes.front();
+    drawn.polygons = {{{box.low, {box.low.x(), box.high.y()}, box.high, {box.high.x(), box.low.y()}}}};
+    Scenario mapped;
+    const Eigen::Vector2d corner{-5.0, -5.0};
+    std::vector<std::int8_t> values(40 * 40, 0);
+    const Eigen::Vector2d first = (low - corner) / cell;
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 2; ++column)
+        values[static_cast<std::size_t>((std::lround(first.y()) + row) * 40 + std::lround(first.x()) +
+                                        column)] = 100;
+    mapped.map = std::make_shared<const StaticMap>(Pose2{corner, 0.0}, cell, 40, 40, values);
+    const double radius = random.uniform(0.02, 0.2);
+    Motion motion = draw_motion(random);
+    const StaticShapes boxes{boxed};
+    if (boxes.clearance(motion.from, 0.0) <= 0.0) continue;
+    const std::optional<Contact> expected = boxes.first_contact(motion, radius);
+    hits += expected ? 1 : 0;
+    for (const Scenario* scenario : {&drawn, &mapped}) {
+      const StaticShapes shapes{*scenario};
+      EXPECT_NEAR(shapes.clearance(motion.from, radius, 2.0), boxes.clearance(motion.from, radius, 2.0),
+                  1e-9);
+      const std::optional<Contact> found = shapes.first_contact(motion, radius);
+      ASSERT_EQ(found.has_value(), expected.has_value());
+      if (!found) continue;
+      EXPECT_NEAR(found->time, expected->time, 1e-6);
+      EXPECT_EQ(found->with, scenario == &drawn ? ContactWith::polygon : ContactWith::map);
+      EXPECT_EQ(found->other, scenario == &drawn ? 0 : -1);
+    }
+  }
+  EXPECT_GT(hits, 50);
 }
 
 TEST(Contact, NamesWhatWasTouchedFirst) {

@@ -1,11 +1,28 @@
 #include "sim/dynamic_obstacles.hpp"
 
+#include <algorithm>
+
 namespace spf::sim {
+namespace {
+
+/// The first number that neither a disc nor a recorded person has.
+int first_free_id(const Scenario& scenario) {
+  int recorded = 0;
+  for (const CrowdSample& sample : scenario.crowd) recorded = std::max(recorded, sample.id + 1);
+  return static_cast<int>(scenario.moving.size()) + recorded;
+}
+
+}  // namespace
 
 DynamicObstacles::DynamicObstacles(const Scenario& scenario)
-    : discs_{scenario}, crowd_{scenario.crowd, scenario.crowd_gap}, person_radius_{scenario.crowd_radius} {}
+    : discs_{scenario},
+      crowd_{scenario.crowd, scenario.crowd_gap},
+      person_radius_{scenario.crowd_radius},
+      walkers_{scenario},
+      first_walker_{first_free_id(scenario)},
+      robot_radius_{scenario.robot.radius} {}
 
-void DynamicObstacles::advance(double time) {
+void DynamicObstacles::advance(double time, const std::vector<RobotTruth>& robots) {
   discs_.advance();
   dynamic_obstacles_.clear();
   const int discs = static_cast<int>(discs_.now().size());
@@ -18,6 +35,30 @@ void DynamicObstacles::advance(double time) {
   crowd_.visit(time, kStep, [&](int id, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     dynamic_obstacles_.push_back({discs + id, true, person_radius_, {from, to}, (to - from) / kStep});
   });
+  if (!walkers_.empty()) advance_walkers(robots);
+}
+
+void DynamicObstacles::advance_walkers(const std::vector<RobotTruth>& robots) {
+  std::vector<RoundBody> others;
+  for (const DynamicObstacle& obstacle : dynamic_obstacles_) {
+    RoundBody& body = others.emplace_back();
+    body.position = obstacle.motion.from;
+    body.velocity = obstacle.velocity_world;
+    body.radius = obstacle.radius;
+  }
+  for (const RobotTruth& robot : robots) {
+    if (robot.gone) continue;
+    RoundBody& body = others.emplace_back();
+    body.position = robot.pose.position_world;
+    body.velocity = robot.velocity_world;
+    body.radius = robot_radius_;
+  }
+  walkers_.advance(others);
+  for (std::size_t i = 0; i < walkers_.size(); ++i) {
+    const Motion& motion = walkers_.motion(i);
+    dynamic_obstacles_.push_back({first_walker_ + static_cast<int>(i), true, walkers_.radius(i), motion,
+                                  (motion.to - motion.from) / kStep});
+  }
 }
 
 }  // namespace spf::sim

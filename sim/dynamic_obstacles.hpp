@@ -1,5 +1,5 @@
-// The dynamic obstacles of a trial: the scenario's moving discs and its recorded crowd, in steps of 0.1 s
-// within which each moves linearly. Frame: world.
+// The dynamic obstacles of a trial: the scenario's moving discs, its recorded crowd, and its people with
+// waypoints, in steps of 0.1 s within which each moves linearly. Frame: world.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,14 @@
 #include "sim/contact.hpp"
 #include "sim/crowd.hpp"
 #include "sim/moving_obstacles.hpp"
+#include "sim/robot_truth.hpp"
+#include "sim/walkers.hpp"
 
 namespace spf::sim {
 
 struct DynamicObstacle {
-  int id = 0;  ///< as the detector reports it: discs 0, 1, 2, ...; people follow after the last disc
+  int id = 0;  ///< as the detector reports it: discs 0, 1, 2, ...; those recorded follow after the last disc,
+               ///< then those with waypoints
   bool person = false;
   double radius = 0.0;                                       ///< [m]
   Motion motion;                                             ///< over the current step
@@ -24,15 +27,20 @@ class DynamicObstacles {
 
   explicit DynamicObstacles(const Scenario& scenario);
 
-  /// Begins the step at `time` [s], a multiple of kStep.
-  void advance(double time);
+  /// Begins the step at `time` [s], a multiple of kStep. People who react do so to the robots as they are.
+  void advance(double time, const std::vector<RobotTruth>& robots = {});
 
   [[nodiscard]] const std::vector<DynamicObstacle>& all() const { return dynamic_obstacles_; }
 
  private:
+  void advance_walkers(const std::vector<RobotTruth>& robots);
+
   MovingObstacles discs_;
   Crowd crowd_;
-  double person_radius_;  // [m]
+  double person_radius_;  // [m] of those recorded
+  Walkers walkers_;
+  int first_walker_;     // its id
+  double robot_radius_;  // [m]
   std::vector<DynamicObstacle> dynamic_obstacles_;
 };
 

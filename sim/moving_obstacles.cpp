@@ -64,6 +64,17 @@ void push_away_from(const Eigen::Vector2d& point, double gap, ObstacleState& dis
   disc.velocity_world -= 2.0 * inwards * normal;
 }
 
+/// Likewise from the surfaces around it. The nearest point of all is the one that it touches; in a corner
+/// there is another one then.
+void push_away_from(const Outlines& outlines, ObstacleState& disc) {
+  constexpr int kMostTouched = 4;
+  for (int i = 0; i < kMostTouched; ++i) {
+    const std::optional<Eigen::Vector2d> point = outlines.nearest(disc.position_world, disc.radius);
+    if (!point) return;
+    push_away_from(*point, disc.radius, disc);
+  }
+}
+
 }  // namespace
 
 MovingObstacles::MovingObstacles(const Scenario& scenario)
@@ -71,6 +82,7 @@ MovingObstacles::MovingObstacles(const Scenario& scenario)
       boxes_{scenario.boxes},
       discs_{scenario.discs},
       walls_{scenario.walls},
+      outlines_{scenario},
       noise_{scenario.simulation.noise},
       random_{noise_seed(scenario)},
       now_{scenario.moving},
@@ -97,6 +109,7 @@ void MovingObstacles::advance() {
     for (const Disc& fixed : discs_) push_away_from(fixed.center, fixed.radius + disc.radius, disc);
     for (const Segment& wall : walls_)
       push_away_from(nearest_on_segment(disc.position_world, wall), disc.radius, disc);
+    push_away_from(outlines_, disc);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sim/outlines.hpp"
 #include "sim/scenario.hpp"
 #include "spf/math/random_stream.hpp"
 
@@ -38,6 +39,7 @@ class MovingObstacles {
   std::vector<Box> boxes_;
   std::vector<Disc> discs_;
   std::vector<Segment> walls_;
+  Outlines outlines_;
   ObstacleNoiseParameters noise_;
   RandomStream random_;
   std::vector<ObstacleState> now_;

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <memory>
+
 #include "sim/geometry.hpp"
 #include "spf/math/angles.hpp"
+#include "spf/math/polygon.hpp"
 
 namespace spf::sim {
 namespace {
@@ -122,6 +127,44 @@ TEST(MovingObstacles, StayInTheFieldAndOutOfStaticShapes) {
       ASSERT_GE(distance_to_segment(disc.position_world, scenario.walls[0]), disc.radius - 1e-9);
     }
   }
+}
+
+/// Walls of many pieces turn a disc back as one wall does: along them it keeps its speed.
+TEST(MovingObstacles, SlideAlongWallsOfAMapAndStayInItsRooms) {
+  Scenario scenario = open_place(0.0, NoiseModel::white);
+  const std::size_t side = 200;
+  std::vector<std::int8_t> values(side * side, 0);
+  for (std::size_t i = 0; i < side; ++i) values[100 * side + i] = 100;  // a wall from edge to edge
+  const double heading = 0.5;
+  scenario.map = std::make_shared<const StaticMap>(Pose2{{0.0, 0.0}, heading}, 0.1, side, side, values);
+  const Eigen::Rotation2Dd turn{heading};
+  ObstacleState disc;
+  disc.position_world = turn * Eigen::Vector2d{3.0, 5.0};
+  disc.velocity_world = turn * Eigen::Vector2d{0.3, 0.7};
+  disc.radius = 0.4;
+  scenario.moving = {disc};
+  scenario.polygons = {{{turn * Eigen::Vector2d{15.0, 2.0}, turn * Eigen::Vector2d{17.0, 2.0},
+                         turn * Eigen::Vector2d{16.0, 4.0}}}};
+  MovingObstacles obstacles{scenario};
+  int turns = 0;
+  double before = 0.7;
+  for (int step = 0; step < 3000; ++step) {
+    obstacles.advance();
+    const ObstacleState& now = obstacles.next()[0];
+    const Eigen::Vector2d at = turn.inverse() * now.position_world;
+    ASSERT_GE(std::min(at.x(), at.y()), 0.4 - 1e-6) << step;
+    ASSERT_LE(at.y(), 10.0 - 0.4 + 1e-6) << step;
+    ASSERT_LE(at.x(), 20.0 - 0.4 + 1e-6) << step;
+    ASSERT_GE(signed_distance_to_polygon(now.position_world, scenario.polygons[0].corners), 0.4 - 1e-6);
+    ASSERT_NEAR(now.velocity_world.norm(), disc.velocity_world.norm(), 1e-9);
+    if (step < 300) {  // until it comes to the triangle
+      const Eigen::Vector2d velocity = turn.inverse() * now.velocity_world;
+      ASSERT_NEAR(velocity.x(), 0.3, 1e-9) << step;
+      if (velocity.y() * before < 0.0) ++turns;
+      before = velocity.y();
+    }
+  }
+  EXPECT_GE(turns, 2);
 }
 
 TEST(MovingObstacles, FirstDiscsDrawTheSameWhateverFollows) {

@@ -57,7 +57,8 @@ RangeSensor::RangeSensor(const Scenario& scenario)
       field_of_view_{scenario.simulation.sensing.field_of_view / 360.0 * (2.0 * kPi)},
       range_{scenario.simulation.sensing.range},
       segments_{scenario.walls},
-      discs_{scenario.discs} {
+      discs_{scenario.discs},
+      outlines_{scenario} {
   for (const Box& box : scenario.boxes) append_sides(box, segments_);
   if (scenario.border) append_sides(*scenario.border, segments_);
 }
@@ -70,6 +71,8 @@ void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& di
   Sweep sweep{pose_world.position_world, pose_world.heading + scan.angle_min, scan.angle_increment,
               scan.ranges};
   for (const Segment& segment : segments_) cast_segment(segment, sweep);
+  outlines_.visit(pose_world.position_world, range_,
+                  [&](const Outlines::Piece& piece) { cast_segment(piece.segment, sweep); });
   for (const Disc& disc : discs_) cast_disc(disc.center, disc.radius, sweep);
   for (const SeenDisc& disc : discs) cast_disc(disc.position_world, disc.radius, sweep);
 }
@@ -96,6 +99,11 @@ bool RangeSensor::line_clear(const Segment& line, const SeenDisc& target,
                              const std::vector<SeenDisc>& discs) const {
   for (const Segment& segment : segments_)
     if (segments_cross(line, segment)) return false;
+  bool blocked = false;
+  outlines_.visit(
+      0.5 * (line.from + line.to), 0.5 * (line.to - line.from).norm(),
+      [&](const Outlines::Piece& piece) { blocked = blocked || segments_cross(line, piece.segment); });
+  if (blocked) return false;
   for (const Disc& disc : discs_)
     if (distance_to_segment(disc.center, line) < disc.radius) return false;
   for (const SeenDisc& disc : discs) {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sim/outlines.hpp"
 #include "sim/scenario.hpp"
 #include "spf/world/observation.hpp"
 
@@ -43,6 +44,7 @@ class RangeSensor {
   double range_;                   // [m]
   std::vector<Segment> segments_;  // walls, sides of boxes and of the border
   std::vector<Disc> discs_;
+  Outlines outlines_;
 };
 
 }  // namespace spf::sim

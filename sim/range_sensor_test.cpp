@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "sim/geometry.hpp"
 #include "spf/math/angles.hpp"
@@ -32,6 +33,43 @@ TEST(RangeSensor, SeesASquareRoomAsItsClosedForm) {
     const double expected = 3.0 / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
     EXPECT_NEAR(scan.ranges[beam], expected, 1e-12) << beam;
   }
+}
+
+/// The same room by its border, by a polygon around it, and as cells.
+TEST(RangeSensor, SeesPolygonsAndMapsAsItSeesWalls) {
+  Scenario by_border;
+  by_border.border = Box{{0.0, 0.0}, {9.0, 6.0}};
+  by_border.boxes = {{{4.0, 1.0}, {5.0, 3.0}}};
+  Scenario by_polygons;
+  by_polygons.polygons = {{{{0.0, 0.0}, {9.0, 0.0}, {9.0, 6.0}, {0.0, 6.0}}},
+                          {{{4.0, 1.0}, {5.0, 1.0}, {5.0, 3.0}, {4.0, 3.0}}}};
+  std::vector<std::int8_t> values(18 * 12, 0);
+  for (std::size_t row = 2; row < 6; ++row)
+    for (std::size_t column = 8; column < 10; ++column) values[row * 18 + column] = 100;
+  Scenario by_map;
+  by_map.map = std::make_shared<const StaticMap>(Pose2{}, 0.5, 18, 12, values);
+  RandomStream random{5};
+  int seen = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Pose2 pose{{random.uniform(0.1, 3.9), random.uniform(0.1, 5.9)}, random.uniform(-3.0, 3.0)};
+    const RangeScan expected = sweep_of(by_border, pose);
+    const SeenDisc target{{random.uniform(5.3, 8.7), random.uniform(0.3, 5.7)}, 0.2};
+    const bool visible = RangeSensor{by_border}.sees(pose.position_world, target, {target});
+    seen += visible ? 1 : 0;
+    for (const Scenario* scenario : {&by_polygons, &by_map}) {
+      const RangeScan scan = sweep_of(*scenario, pose);
+      for (std::size_t beam = 0; beam < scan.ranges.size(); ++beam) {
+        if (std::isinf(expected.ranges[beam])) {
+          EXPECT_TRUE(std::isinf(scan.ranges[beam])) << k << ", " << beam;
+        } else {
+          EXPECT_NEAR(scan.ranges[beam], expected.ranges[beam], 1e-9) << k << ", " << beam;
+        }
+      }
+      EXPECT_EQ(RangeSensor{*scenario}.sees(pose.position_world, target, {target}), visible) << k;
+    }
+  }
+  EXPECT_GT(seen, 20);
+  EXPECT_LT(seen, 90);
 }
 
 TEST(RangeSensor, SeesADiscAsItsClosedFormAndNothingBeyondItsRange) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host/cell_map.hpp"
 #include "host/robot_map.hpp"
 #include "sim/simulation.hpp"
 #include "spf/robot/robot_scale.hpp"
@@ -25,6 +26,10 @@ void add_wall(OccupancyMap& map, const Segment& wall) {
 
 Box extent_of(const Scenario& scenario) {
   if (scenario.border) return *scenario.border;
+  if (scenario.map) {  // the world ends at its edges
+    const host::CellExtent extent = host::extent_of(scenario.map->cells());
+    return {extent.low_world, extent.high_world};
+  }
   Box extent{scenario.robots.front().start.position_world, scenario.robots.front().start.position_world};
   const auto include = [&extent](const Eigen::Vector2d& point) {
     extent.low = extent.low.cwiseMin(point);
@@ -43,6 +48,8 @@ Box extent_of(const Scenario& scenario) {
     include(wall.from);
     include(wall.to);
   }
+  for (const Polygon& polygon : scenario.polygons)
+    for (const Eigen::Vector2d& corner : polygon.corners) include(corner);
   extent.low -= Eigen::Vector2d::Constant(kOpenMargin);
   extent.high += Eigen::Vector2d::Constant(kOpenMargin);
   return extent;
@@ -78,6 +85,7 @@ OccupancyMap robot_map(const Scenario& scenario) {
   OccupancyMap map =
       host::empty_map(extent.low, extent.high, sensing.map_grain, std::sqrt(size.x() * size.y() / kMaxNodes));
   if (scenario.border) map.add_border(scenario.border->low, scenario.border->high);
+  if (scenario.map) host::add_edges(map, scenario.map->cells());
   if (sensing.map == MapKnowledge::sensed) {
     map.mark_unexplored();
     return map;
@@ -85,6 +93,8 @@ OccupancyMap robot_map(const Scenario& scenario) {
   for (const Box& box : scenario.boxes) map.add_box(box.low, box.high);
   for (const Disc& disc : scenario.discs) map.add_disc(disc.center, disc.radius);
   for (const Segment& wall : scenario.walls) add_wall(map, wall);
+  for (const Polygon& polygon : scenario.polygons) map.add_polygon(polygon.corners);
+  if (scenario.map) host::add_cells(map, scenario.map->cells());
   return map;
 }
 

@@ -5,7 +5,11 @@
 #include <sstream>
 
 #include "sim/geometry.hpp"
+#include "sim/outlines.hpp"
+#include "sim/polygon_check.hpp"
 #include "sim/uniform_grid.hpp"
+#include "sim/walkers.hpp"
+#include "spf/math/polygon.hpp"
 #include "spf/math/random_stream.hpp"
 
 namespace spf::sim {
@@ -36,6 +40,7 @@ class Report {
   void require_radius(const std::string& where, double radius) {
     if (!(radius > 0.0 && radius <= 1000.0)) add(where, "radius ", radius, " m must lie in (0, 1000]");
   }
+  [[nodiscard]] bool none() const { return found_.empty(); }
   [[nodiscard]] std::vector<ScenarioProblem> take() { return std::move(found_); }
 
  private:
@@ -86,6 +91,11 @@ void check_shapes(Report& report, const Scenario& scenario) {
     report.require_finite(entry("walls", i), scenario.walls[i].from);
     report.require_finite(entry("walls", i), scenario.walls[i].to);
   }
+  PolygonCheck polygons;
+  for (std::size_t i = 0; i < scenario.polygons.size(); ++i) {
+    const std::string problem = polygons.problem_of(scenario.polygons[i]);
+    if (!problem.empty()) report.add(entry("polygons", i, ".corners"), problem);
+  }
   for (std::size_t i = 0; i < scenario.moving.size(); ++i) {
     report.require_finite(entry("moving", i, ".position"), scenario.moving[i].position_world);
     report.require_finite(entry("moving", i, ".velocity"), scenario.moving[i].velocity_world);
@@ -100,9 +110,44 @@ void check_shapes(Report& report, const Scenario& scenario) {
   }
 }
 
+/// What positions are held against, looked through once for all of them.
+struct Ground {
+  explicit Ground(const Scenario& scenario) : outlines{scenario} {
+    for (const Polygon& polygon : scenario.polygons) {
+      Box& bound = bounds.emplace_back();
+      if (polygon.corners.empty()) continue;
+      bound = {polygon.corners.front(), polygon.corners.front()};
+      for (const Eigen::Vector2d& corner : polygon.corners) {
+        bound.low = bound.low.cwiseMin(corner);
+        bound.high = bound.high.cwiseMax(corner);
+      }
+    }
+  }
+  Outlines outlines;
+  std::vector<Box> bounds;  // of the polygons
+};
+
+void require_free_cells(Report& report, const std::string& where, const Eigen::Vector2d& position,
+                        const Scenario& scenario, const Ground& ground) {
+  if (!scenario.map) return;
+  const double radius = scenario.robot.radius;
+  std::ostringstream problem;
+  if (scenario.map->occupied(position)) {
+    problem << "is in an occupied cell of the map, or beyond its edges";
+  } else {
+    double nearest = radius;
+    ground.outlines.visit(position, radius, [&](const Outlines::Piece& piece) {
+      if (piece.polygon < 0) nearest = std::min(nearest, distance_to_segment(position, piece.segment));
+    });
+    if (nearest < radius)
+      problem << "is " << nearest << " m from a wall of the map, less than the radius " << radius << " m";
+  }
+  if (!problem.str().empty()) report.add(where, problem.str()).other = "map";
+}
+
 /// A robot's centre must stay its radius away from everything static.
 void check_position(Report& report, const std::string& where, const Eigen::Vector2d& position,
-                    const Scenario& scenario) {
+                    const Scenario& scenario, const Ground& ground) {
   report.require_finite(where, position);
   if (!position.allFinite()) return;
   const double radius = scenario.robot.radius;
@@ -118,11 +163,51 @@ void check_position(Report& report, const std::string& where, const Eigen::Vecto
     require_gap("discs", i, (position - scenario.discs[i].center).norm() - scenario.discs[i].radius);
   for (std::size_t i = 0; i < scenario.walls.size(); ++i)
     require_gap("walls", i, distance_to_segment(position, scenario.walls[i]));
+  for (std::size_t i = 0; i < scenario.polygons.size(); ++i)
+    if (distance_to_box(position, ground.bounds[i]) < radius)
+      require_gap("polygons", i,
+                  std::max(signed_distance_to_polygon(position, scenario.polygons[i].corners), 0.0));
   if (inside.any())
     report
         .add(where, "is ", inside.distance(), " m from ", inside.name(), ", less than the radius ", radius,
              " m", inside.and_more())
         .other = inside.name();
+  require_free_cells(report, where, position, scenario, ground);
+}
+
+constexpr std::size_t kMostPeople = 1000;       // who react to each other
+constexpr std::size_t kMostWaypoints = 10'000;  // of all people together
+
+void check_people(Report& report, const Scenario& scenario) {
+  if (scenario.people.empty()) return;
+  if (scenario.people.size() > kMostPeople)
+    return static_cast<void>(
+        report.add("people", "must be at most ", kMostPeople, ", and are ", scenario.people.size()));
+  const StaticShapes shapes{scenario};
+  std::size_t waypoints = 0;
+  for (std::size_t i = 0; i < scenario.people.size(); ++i) {
+    const PersonTask& person = scenario.people[i];
+    const std::string where = entry("people", i, ".waypoints");
+    report.require_radius(entry("people", i), person.radius);
+    waypoints += person.waypoints.size();
+    if (person.waypoints.empty() || waypoints > kMostWaypoints) {
+      report.add(where, "must be at least 1, and at most ", kMostWaypoints, " of all people together");
+      continue;
+    }
+    const auto finite = [](const Eigen::Vector2d& point) { return point.allFinite(); };
+    if (!std::all_of(person.waypoints.begin(), person.waypoints.end(), finite)) {
+      report.add(where, "must be finite");
+      continue;
+    }
+    const Eigen::Vector2d& start = person.waypoints.front();
+    const bool inside = std::any_of(
+        scenario.polygons.begin(), scenario.polygons.end(),
+        [&](const Polygon& shape) { return signed_distance_to_polygon(start, shape.corners) < 0.0; });
+    if (inside || (scenario.map && scenario.map->occupied(start)))
+      report.add(where, "must not begin inside a polygon or an occupied cell of the map");
+    else if (const std::string problem = blocked_way(person, shapes); !problem.empty())
+      report.add(where, problem);
+  }
 }
 
 void report_overlap(Report& report, std::size_t robot, const FirstOfMany& inside) {
@@ -136,10 +221,11 @@ void report_overlap(Report& report, std::size_t robot, const FirstOfMany& inside
 void check_robots(Report& report, const Scenario& scenario) {
   if (scenario.robots.empty()) report.add("robots", "at least one robot is needed");
   std::vector<Eigen::Vector2d> starts;
+  const Ground ground{scenario};
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     const RobotTask& task = scenario.robots[i];
-    check_position(report, entry("robots", i, ".start"), task.start.position_world, scenario);
-    check_position(report, entry("robots", i, ".goal"), task.goal_world, scenario);
+    check_position(report, entry("robots", i, ".start"), task.start.position_world, scenario, ground);
+    check_position(report, entry("robots", i, ".goal"), task.goal_world, scenario, ground);
     if (!std::isfinite(task.start.heading))
       report.add(entry("robots", i, ".start"), "heading must be finite");
     if (task.goal_heading && !std::isfinite(*task.goal_heading))
@@ -149,6 +235,12 @@ void check_robots(Report& report, const Scenario& scenario) {
     for (std::size_t d = 0; d < scenario.moving.size(); ++d) {
       const double gap = (task.start.position_world - scenario.moving[d].position_world).norm();
       if (gap < scenario.robot.radius + scenario.moving[d].radius) inside.add(gap, "moving", d);
+    }
+    for (std::size_t p = 0; p < scenario.people.size(); ++p) {
+      const PersonTask& person = scenario.people[p];
+      if (person.anywhere || person.waypoints.empty()) continue;
+      const double gap = (task.start.position_world - person.waypoints.front()).norm();
+      if (gap < scenario.robot.radius + person.radius) inside.add(gap, "people", p);
     }
     report_overlap(report, i, inside);
     starts.push_back(task.start.position_world);
@@ -182,6 +274,7 @@ std::vector<ScenarioProblem> problems_of(const Scenario& scenario) {
     report.add("simulation", "trial.plant_rate = ", scenario.simulation.trial.plant_rate,
                " [Hz] must be a multiple of 10 Hz");
   check_shapes(report, scenario);
+  if (report.none()) check_people(report, scenario);
   check_robots(report, scenario);
   return report.take();
 }

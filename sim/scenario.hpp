@@ -4,11 +4,15 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/person_task.hpp"
+#include "sim/segment.hpp"
 #include "sim/simulation_parameters.hpp"
+#include "sim/static_map.hpp"
 #include "spf/math/pose2.hpp"
 #include "spf/robot/robot_parameters.hpp"
 #include "spf/world/obstacle_state.hpp"
@@ -27,10 +31,9 @@ struct Disc {
   double radius = 0.5;                               ///< [m]
 };
 
-/// Line segment: a thin wall, or a seam between two fields of view.
-struct Segment {
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< [m]
-  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< [m]
+/// Static filled polygon: three corners or more, in either sense, whose sides do not cross.
+struct Polygon {
+  std::vector<Eigen::Vector2d> corners;  ///< [m]
 };
 
 struct RobotTask {
@@ -60,11 +63,14 @@ struct Scenario {
   std::vector<Box> boxes;
   std::vector<Disc> discs;
   std::vector<Segment> walls;
-  std::vector<Segment> seams;         ///< crossing one makes the observed pose jump (PoseNoiseParameters)
-  std::vector<ObstacleState> moving;  ///< moving discs at t = 0, ids 0, 1, 2, ...
-  std::vector<CrowdSample> crowd;     ///< recorded people, sorted by time
-  double crowd_radius = 0.25;         ///< [m] of each person
-  double crowd_gap = kUnlimited;      ///< [s] a person without a sample for longer is absent meanwhile
+  std::vector<Polygon> polygons;
+  std::shared_ptr<const StaticMap> map;  ///< of cells; null = none. Trials share it
+  std::vector<Segment> seams;            ///< crossing one makes the observed pose jump (PoseNoiseParameters)
+  std::vector<ObstacleState> moving;     ///< moving discs at t = 0, ids 0, 1, 2, ...
+  std::vector<CrowdSample> crowd;        ///< recorded people, sorted by time
+  double crowd_radius = 0.25;            ///< [m] of each person
+  double crowd_gap = kUnlimited;         ///< [s] a person without a sample for longer is absent meanwhile
+  std::vector<PersonTask> people;        ///< who walk from waypoint to waypoint
   std::vector<RobotTask> robots;
   RobotParameters robot;  ///< all robots of a fleet are alike
   SimulationParameters simulation;

@@ -51,7 +51,7 @@ World::World(const Scenario& scenario)
 
 void World::begin_tick() {
   if (step_due()) {
-    dynamic_obstacles_.advance(time());
+    dynamic_obstacles_.advance(time(), robots_);
     meter_.digest(robots_, dynamic_obstacles_.all());
   }
   observation_due_ = false;

@@ -1,5 +1,7 @@
 #include "study/scenario_file.hpp"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -17,7 +19,6 @@
 #include "sim/simulation.hpp"
 #include "spf/math/random_stream.hpp"
 #include "spf/robot/robot_scale.hpp"
-#include "study/crowd_file.hpp"
 
 namespace spf {
 namespace {
@@ -64,9 +65,12 @@ sim::Scenario explicit_scenario(const RunConfiguration& config) {
   for (const BoxEntry& box : config.scene.boxes) scenario.boxes.push_back({box.low, box.high});
   for (const DiscEntry& disc : config.scene.discs) scenario.discs.push_back({disc.center, disc.radius});
   for (const WallEntry& wall : config.scene.walls) scenario.walls.push_back({wall.from, wall.to});
+  for (const PolygonEntry& polygon : config.scene.polygons) scenario.polygons.push_back({polygon.corners});
+  scenario.map = config.map;
   for (const WallEntry& seam : config.scene.seams) scenario.seams.push_back({seam.from, seam.to});
   for (const MovingEntry& disc : config.scene.moving)
     scenario.moving.push_back({disc.position, disc.velocity, disc.radius});
+  for (const PersonEntry& person : config.scene.people) scenario.people.push_back(person.task);
   for (const RobotEntry& robot : config.scene.robots)
     scenario.robots.push_back({{robot.start, heading_of(robot)}, robot.goal, robot.goal_heading});
   return scenario;
@@ -158,28 +162,101 @@ void check_drawn(const YamlNode& root, const RunConfiguration& config, InputProb
   }
 }
 
-bool has_recording(const RunConfiguration& config) {
+/// A number that differs when the numbers do that are added one after the other.
+class Content {
+ public:
+  void add(double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    value_ = mix(value_, bits);
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0;
+};
+
+std::uint64_t content_of(const sim::CrowdRecording& recording) {
+  Content content;
+  for (const sim::CrowdSample& sample : recording.samples()) {
+    content.add(sample.time);
+    content.add(sample.id);
+    content.add(sample.position_world.x());
+    content.add(sample.position_world.y());
+  }
+  return content.value();
+}
+
+std::uint64_t content_of(const sim::StaticMap& map) {
+  Content content;
+  const host::CellMap cells = map.cells();
+  content.add(cells.resolution);
+  for (const Eigen::Vector2d& corner : map.corners()) {
+    content.add(corner.x());
+    content.add(corner.y());
+  }
+  for (const std::int8_t value : *cells.values) content.add(value);
+  return content.value();
+}
+
+bool needs_recording(const RunConfiguration& config) {
   return config.family.drawn == sim::Family::ped;
 }
 
-/// Reads the recording that the configuration names. A path in the scenario file is relative to that file,
-/// any other (from --set or a campaign) to the working directory.
-void read_recording(const YamlNode& root, RunConfiguration& config, InputProblems& problems) {
+/// The recorded people of an explicit scene's trial, from the beginning of the recording on when it has
+/// ended.
+void place_recorded(const RunConfiguration& config, sim::Scenario& scenario) {
+  const sim::CrowdRecording& recording = *config.recording;
+  const CrowdPlacement& placement = config.scene.crowd_placement;
+  const double duration = recording.end() - recording.begin();
+  double begin = placement.begin + placement.spacing * scenario.trial;
+  if (duration > 0.0) begin = std::fmod(begin, duration);
+  scenario.crowd = recording.window(recording.begin() + begin, sim::time_limit_of(scenario));
+  scenario.crowd_gap = recording.longest_gap();
+  const Eigen::Rotation2Dd turn{placement.heading};
+  for (sim::CrowdSample& sample : scenario.crowd)
+    sample.position_world = placement.origin + turn * sample.position_world;
+}
+
+/// A path in the scenario file is relative to that file, any other (from --set or a campaign) to the working
+/// directory.
+std::filesystem::path path_of(const YamlNode& root, const YamlNode& node, const std::string& named) {
   const std::string& file = root.location.source;
+  std::filesystem::path path{named};
+  if (path.is_relative() && node.location.source == file)
+    path = std::filesystem::path{file}.parent_path() / path;
+  return path.lexically_normal();
+}
+
+/// So that the configuration can be written elsewhere.
+void make_absolute(const std::filesystem::path& path, std::string& named) {
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  if (!error) named = absolute.lexically_normal().string();
+}
+
+/// Reads the map that an explicit scene names, if any.
+void read_map(const YamlNode& root, RunConfiguration& config, InputProblems& problems) {
+  const YamlNode* node = root.find("map");
+  if (node == nullptr || config.scene.map.empty()) return;
+  const std::filesystem::path path = path_of(root, *node, config.scene.map);
+  config.map = read_map_file(path.string(), config.scene.map_settings, node->location, problems);
+  make_absolute(path, config.scene.map);
+}
+
+/// Reads the recording that the configuration names.
+void read_recording(const YamlNode& root, RunConfiguration& config, InputProblems& problems) {
   const YamlNode* node = root.find("crowd");
   if (node == nullptr || config.crowd.empty()) {
+    if (!needs_recording(config)) return;
     if (node == nullptr || node->kind == YamlKind::scalar)
       problems.add(node == nullptr ? root.location : node->location,
                    "crowd is missing: the family ped needs a recording, as in --set crowd=FILE.csv");
     return;
   }
-  std::filesystem::path path{config.crowd};
-  if (path.is_relative() && node->location.source == file)
-    path = std::filesystem::path{file}.parent_path() / path;
-  config.recording = read_crowd_file(path.lexically_normal().string(), node->location, problems);
-  std::error_code error;
-  const std::filesystem::path absolute = std::filesystem::absolute(path, error);
-  if (!error) config.crowd = absolute.lexically_normal().string();
+  const std::filesystem::path path = path_of(root, *node, config.crowd);
+  config.recording = read_crowd_file(path.string(), node->location, problems, config.crowd_settings);
+  make_absolute(path, config.crowd);
 }
 
 /// Whether the settings go together. What a family draws does not matter to that.
@@ -204,7 +281,8 @@ RunConfiguration read_document(YamlNode root, const std::vector<Setting>& settin
   refuse_removed_keys(root, problems);
   if (!require_map(root, problems)) problems.throw_if_any();
   RunConfiguration config = read_keys(root, methods, problems);
-  if (has_recording(config)) read_recording(root, config, problems);
+  if (needs_recording(config) || !config.family.drawn) read_recording(root, config, problems);
+  if (!config.family.drawn) read_map(root, config, problems);
   if (!config.family.drawn)
     check_explicit(root, config, problems);
   else if (problems.empty())
@@ -268,11 +346,12 @@ sim::Scenario make_trial(const RunConfiguration& config, int trial) {
   }
   sim::Scenario scenario = explicit_scenario(config);
   scenario.trial = trial;
+  if (config.recording) place_recorded(config, scenario);
   return scenario;
 }
 
 std::optional<int> trial_count(const RunConfiguration& config) {
-  if (!has_recording(config) || !config.recording) return std::nullopt;
+  if (!needs_recording(config) || !config.recording) return std::nullopt;
   return sim::pedestrian_trials(*config.recording, config.layout);
 }
 
@@ -285,21 +364,10 @@ std::string trials_problem(const RunConfiguration& config, int first, int trials
 }
 
 std::string identity_text(const RunConfiguration& config) {
-  if (!config.recording) return to_yaml_text(config);
-  std::uint64_t content = 0;
-  const auto add = [&content](double value) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    content = mix(content, bits);
-  };
-  for (const sim::CrowdSample& sample : config.recording->samples()) {
-    add(sample.time);
-    add(sample.id);
-    add(sample.position_world.x());
-    add(sample.position_world.y());
-  }
+  if (!config.recording && !config.map) return to_yaml_text(config);
   RunConfiguration placeless = config;
-  placeless.crowd = to_text(content);
+  if (config.map) placeless.scene.map = to_text(content_of(*config.map));
+  if (config.recording) placeless.crowd = to_text(content_of(*config.recording));
   return to_yaml_text(placeless);
 }
 

@@ -21,6 +21,8 @@
 #include "config/method_choice.hpp"
 #include "sim/families.hpp"
 #include "sim/scenario.hpp"
+#include "study/crowd_file.hpp"
+#include "study/map_file.hpp"
 
 namespace spf {
 
@@ -106,6 +108,17 @@ struct WallEntry {
   }
 };
 
+struct PolygonEntry {
+  std::vector<Eigen::Vector2d> corners;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit.required("corners");
+    visit.values("corners", self.corners, "m", kCoordinate,
+                 "its corners one after the other, as [[0, 0], [1, 0], [1, 2]]; the last joins the first");
+  }
+};
+
 struct MovingEntry {
   Eigen::Vector2d position = kUnsetPoint;
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
@@ -120,6 +133,40 @@ struct MovingEntry {
   }
 };
 
+struct PersonEntry {
+  sim::PersonTask task;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit.required("waypoints");
+    visit.values("waypoints", self.task.waypoints, "m", kCoordinate,
+                 "where the person walks, as [[0, 0], [4, 0]]; the first is the start");
+    visit("speed", self.task.speed, "m/s", Range{0.05, 5.0}, "how fast he or she likes to walk");
+    visit("radius", self.task.radius, "m", Range{0.01, 10.0}, "radius of the body");
+    visit("behaviour", self.task.behaviour,
+          "fixed: straight on, whatever is in the way; reacting: avoids robots, people and what stands");
+    visit("at_last", self.task.at_last, "at the last waypoint: back along the way, on to the first, or stay");
+    visit("anywhere", self.task.anywhere, "every trial draws where on the way the person starts");
+  }
+};
+
+/// Where and when recorded people are in an explicit scene.
+struct CrowdPlacement {
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  double heading = 0.0;
+  double begin = 0.0;
+  double spacing = 5.0;
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit("origin", self.origin, "m", kCoordinate, "where the origin of the recording lies in the scene");
+    visit("heading", self.heading, "rad", Range{-6.3, 6.3}, "where its x axis points");
+    visit("begin", self.begin, "s", Range{0.0, 1e7}, "trial 0 begins so long after the first sample");
+    visit("spacing", self.spacing, "s", Range{0.0, 1e6},
+          "and trial k so many times later; after the recording's end from its beginning on");
+  }
+};
+
 /// The scene of a file with `family: explicit`.
 struct ExplicitScene {
   std::vector<RobotEntry> robots;
@@ -127,8 +174,13 @@ struct ExplicitScene {
   std::vector<BoxEntry> boxes;
   std::vector<DiscEntry> discs;
   std::vector<WallEntry> walls;
+  std::vector<PolygonEntry> polygons;
+  std::string map;  ///< path of the map, absolute once read; empty = none
+  MapSettings map_settings;
   std::vector<WallEntry> seams;
   std::vector<MovingEntry> moving;
+  std::vector<PersonEntry> people;
+  CrowdPlacement crowd_placement;  ///< of RunConfiguration::crowd
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -138,8 +190,15 @@ struct ExplicitScene {
     visit.list("boxes", self.boxes, "static axis-parallel boxes");
     visit.list("discs", self.discs, "static discs");
     visit.list("walls", self.walls, "thin walls");
+    visit.list("polygons", self.polygons, "static filled polygons, whose sides do not cross");
+    visit("map", self.map,
+          "static map: the YAML file of a ROS map server, or a picture (PGM, PNG), beside the scenario file, "
+          "or with --set in the working directory; nothing is beyond its edges");
+    visit.group("map_settings", self.map_settings);
     visit.list("seams", self.seams, "lines at which an observed pose jumps (pose_noise.seam_sigma)");
     visit.list("moving", self.moving, "moving discs; they bounce off the border and static shapes");
+    visit.list("people", self.people, "people who walk from waypoint to waypoint");
+    visit.group("crowd_placement", self.crowd_placement);
   }
 };
 
@@ -149,9 +208,11 @@ struct RunConfiguration {
   std::uint64_t seed = sim::kDefaultSeed;
   MethodChoice method;
   sim::LayoutParameters layout;  ///< of a drawn family
-  std::string crowd;             ///< of ped: path of the recording, absolute once read
+  std::string crowd;             ///< of ped and of explicit scenes: path of the recording, absolute once read
+  CrowdSettings crowd_settings;
   std::shared_ptr<const sim::CrowdRecording> recording;  ///< the recording itself; not among the fields
   ExplicitScene scene;                                   ///< of an explicit one
+  std::shared_ptr<const sim::StaticMap> map;             ///< its map, null = none; not among the fields
   RobotParameters robot;
   sim::SimulationParameters simulation;
   AgentParameters agent;               ///< without its robot: that is `robot`
@@ -230,12 +291,17 @@ void RunConfiguration::visit_head(Self& self, Visitor&& visit) {
 
 template <class Self, class Visitor>
 void RunConfiguration::visit_scene(Self& self, Visitor&& visit) {
-  if (!self.family.drawn) return ExplicitScene::visit_fields(self.scene, visit);
-  visit("robots", self.layout.robots, "1", Range{1, 10000}, "number of robots");
-  if (self.family.drawn == sim::Family::ped)
+  if (self.family.drawn)
+    visit("robots", self.layout.robots, "1", Range{1, 10000}, "number of robots");
+  else
+    ExplicitScene::visit_fields(self.scene, visit);
+  if (!self.family.drawn || self.family.drawn == sim::Family::ped) {
     visit("crowd", self.crowd,
-          "recorded people: a CSV file (t_s, agent_id, x_m, y_m), beside the scenario file, or with --set in "
-          "the working directory (family: ped)");
+          "recorded people: a file (docs/scenarios.md says of which formats), beside the scenario file, or "
+          "with --set in the working directory (family: ped, explicit)");
+    visit.group("crowd_settings", self.crowd_settings);
+  }
+  if (!self.family.drawn) return;
   PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
   visit.group("layout", layout);
 }

@@ -134,6 +134,8 @@ TEST(ScenarioFile, DescribesASceneByHand) {
       "boxes: [{low: [1, 1], high: [2, 2]}]\n"
       "discs: [{center: [-2, 2], radius: 0.4}]\n"
       "walls: [{from: [-3, -3], to: [-2, -3]}]\n"
+      "polygons:\n"
+      "  - corners: [[3, 3], [4, 3], [3.5, 4]]\n"
       "moving: [{position: [3, -3], velocity: [0, 0.5], radius: 0.3}]\n",
       "file.yaml");
   const sim::Scenario scenario = make_trial(config, 0);
@@ -148,8 +150,44 @@ TEST(ScenarioFile, DescribesASceneByHand) {
   ASSERT_EQ(scenario.discs.size(), 1u);
   EXPECT_EQ(scenario.discs[0].radius, 0.4);
   ASSERT_EQ(scenario.walls.size(), 1u);
+  ASSERT_EQ(scenario.polygons.size(), 1u);
+  EXPECT_EQ(scenario.polygons[0].corners[2], (Eigen::Vector2d{3.5, 4.0}));
   ASSERT_EQ(scenario.moving.size(), 1u);
   EXPECT_EQ(scenario.moving[0].velocity_world, (Eigen::Vector2d{0.0, 0.5}));
+}
+
+TEST(ScenarioFile, PutsPeopleIntoADrawnPlace) {
+  const std::string plaza = (kScenarios / "crowds" / "plaza.csv").string();
+  const std::string text =
+      "family: explicit\nrobots: [{start: [0, 0], goal: [5, 0]}]\ntrial: {time_limit: 30}\n"
+      "people:\n"
+      "  - {waypoints: [[0, 2], [4, 2]], speed: 1.1, radius: 0.3, behaviour: fixed, at_last: loop, anywhere: "
+      "true}\n"
+      "  - waypoints: [[1, 4]]\n"
+      "crowd: \"" +
+      plaza + "\"\ncrowd_placement: {origin: [100, 50], heading: 1.5707963267948966, begin: 20}\n";
+  const RunConfiguration config = run_configuration_from_text(text, "file.yaml");
+  const sim::Scenario scenario = make_trial(config, 2);
+  ASSERT_EQ(scenario.people.size(), 2u);
+  EXPECT_EQ(scenario.people[0].waypoints[1], (Eigen::Vector2d{4.0, 2.0}));
+  EXPECT_EQ(scenario.people[0].behaviour, sim::PersonBehaviour::fixed);
+  EXPECT_EQ(scenario.people[0].at_last, sim::AtLastWaypoint::loop);
+  EXPECT_TRUE(scenario.people[0].anywhere);
+  EXPECT_EQ(scenario.people[1].behaviour, sim::PersonBehaviour::reacting);
+  // What the recording shows 20 s + 2 x 5 s after its first sample, turned by 90 degrees and shifted.
+  const std::vector<sim::CrowdSample> window =
+      config.recording->window(config.recording->begin() + 30.0, 30.0);
+  ASSERT_EQ(scenario.crowd.size(), window.size());
+  for (std::size_t i = 0; i < window.size(); ++i) {
+    const Eigen::Vector2d& at = window[i].position_world;
+    EXPECT_LT((scenario.crowd[i].position_world - Eigen::Vector2d{100.0 - at.y(), 50.0 + at.x()}).norm(),
+              1e-9);
+    EXPECT_EQ(scenario.crowd[i].time, window[i].time);
+  }
+  EXPECT_EQ(trial_count(config), std::nullopt);  // it begins again
+  EXPECT_FALSE(make_trial(config, 1'000'000).crowd.empty());
+  EXPECT_EQ(identity_text(run_configuration_from_text(to_yaml_text(config), "again.yaml")),
+            identity_text(config));
 }
 
 struct BadScenario {
@@ -177,6 +215,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{
             "family: explicit\n" ROBOT "discs: [{center: [0.5, 0], radius: 0.3}]",
             "file.yaml:2:18: robots[0].start = [0, 0] is 0.2 m from discs[0], less than the radius 0.3 m"},
+        BadScenario{"family: explicit\n" ROBOT "polygons: [{corners: [[0, 1], [1, 1]]}]",
+                    "file.yaml:3:22: polygons[0].corners = [[0, 1], [1, 1]] must be at least 3, and are 2"},
+        BadScenario{"family: explicit\n" ROBOT "polygons:\n - {}",
+                    "file.yaml:4:4: polygons[0].corners is missing"},
+        BadScenario{"family: explicit\n" ROBOT "polygons:\n - corners: [[0, 1], [1, 1e6], [2, 1]]",
+                    "file.yaml:4:25: polygons[0].corners[1][1] = 1e6 must lie in [-1e+05, 1e+05] m"},
+        BadScenario{"family: explicit\n" ROBOT "polygons:\n - corners: [[0, 2], [1, 3], [1, 2], [0, 3]]",
+                    "file.yaml:4:13: polygons[0].corners = [[0, 2], [1, 3], [1, 2], [0, 3]] must not cross "
+                    "themselves: the sides from corner 0 and from corner 2 meet"},
+        BadScenario{
+            "family: explicit\n" ROBOT "polygons:\n - corners: [[0, 2], [1, 2], [2, 2]]",
+            "file.yaml:4:13: polygons[0].corners = [[0, 2], [1, 2], [2, 2]] must enclose an area, and "
+            "lie on a line"},
+        BadScenario{"family: explicit\n" ROBOT "polygons:\n - corners: [[-2, -2], [2, -2], [2, 2], [-2, 2]]",
+                    "file.yaml:2:18: robots[0].start = [0, 0] is 0 m from polygons[0], less than the radius "
+                    "0.3 m"},
         BadScenario{
             "family: explicit\n" ROBOT "boxes: [{low: [4, -1], high: [6, 1]}]",
             "file.yaml:2:32: robots[0].goal = [5, 0] is 0 m from boxes[0], less than the radius 0.3 m"},

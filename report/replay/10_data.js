@@ -86,6 +86,7 @@ function decodeRun(raw) {
     ...raw,
     interval: raw.frame_interval, frames, duration: Math.max(0, frames - 1) * raw.frame_interval,
     bounds: metres(raw.map.bounds), boxes: raw.map.boxes.map(metres), discs: raw.map.discs.map(metres),
+    polygons: raw.map.polygons.map(metres), blocks: raw.map.blocks.map(metres),
     threshold: raw.field_threshold,
     robots: raw.robots.map((robot, position) => decodeRobot(robot, position, frames, raw.texts)),
     obstacles: raw.obstacles.map((obstacle) => decodeObstacle(obstacle, frames)),

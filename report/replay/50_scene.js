@@ -76,6 +76,12 @@ function haloText(text, x, y, color) {
   pen.fillText(text, x, y);
 }
 
+function cornersPath(corners) {
+  pen.moveTo(toScreenX(corners[0]), toScreenY(corners[1]));
+  for (let i = 2; i < corners.length; i += 2) pen.lineTo(toScreenX(corners[i]), toScreenY(corners[i + 1]));
+  pen.closePath();
+}
+
 function drawMap() {
   const [left, bottom, right, top] = run.bounds;
   pen.lineWidth = 1.5;
@@ -95,6 +101,16 @@ function drawMap() {
     pen.fill();
     pen.stroke();
   }
+  for (const corners of run.polygons) {
+    pen.beginPath();
+    cornersPath(corners);
+    pen.fill();
+    pen.stroke();
+  }
+  pen.fillStyle = faded(colors.wall, 0.6);
+  pen.beginPath();
+  for (const corners of run.blocks) cornersPath(corners);
+  pen.fill();
 }
 
 function drawPerceived(robot, frame) {

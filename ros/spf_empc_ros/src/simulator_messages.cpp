@@ -6,6 +6,7 @@
 
 #include "sim/geometry.hpp"
 #include "sim/simulation.hpp"
+#include "spf/math/polygon.hpp"
 #include "spf_empc_ros/color.hpp"
 #include "spf_empc_ros/conversions.hpp"
 
@@ -20,6 +21,16 @@ using spf::sim::Segment;
 using spf::sim::World;
 
 constexpr std::int8_t kOccupied = 100;
+
+template <class Points>
+Box bounds_of(const Points& points) {
+  Box bounds{points[0], points[0]};
+  for (const Eigen::Vector2d& point : points) {
+    bounds.low = bounds.low.cwiseMin(point);
+    bounds.high = bounds.high.cwiseMax(point);
+  }
+  return bounds;
+}
 
 /// A grid being filled: marks the cells whose centre a shape covers.
 class CellPainter {
@@ -72,6 +83,17 @@ void paint_shapes(const Scenario& scenario, CellPainter& painter, double resolut
     painter.paint(
         wall.from.cwiseMin(wall.to), wall.from.cwiseMax(wall.to), resolution * std::sqrt(0.5),
         [&](const Eigen::Vector2d& position) { return spf::sim::distance_to_segment(position, wall); });
+  for (const spf::sim::Polygon& polygon : scenario.polygons) {
+    const Box bounds = bounds_of(polygon.corners);
+    painter.paint(bounds.low, bounds.high, 0.0, [&](const Eigen::Vector2d& position) {
+      return spf::signed_distance_to_polygon(position, polygon.corners);
+    });
+  }
+  if (!scenario.map) return;
+  const Box bounds = bounds_of(scenario.map->corners());
+  painter.paint(bounds.low, bounds.high, 0.0, [&](const Eigen::Vector2d& position) {
+    return scenario.map->occupied(position) ? 0.0 : resolution;
+  });
 }
 
 /// Markers of one array, by name and number.
@@ -111,6 +133,19 @@ class WorldMarkers {
       marker.points.push_back(point);
     }
   }
+  void segments(const char* name, const std::vector<Segment>& segments) {
+    visualization_msgs::Marker& marker =
+        add(name, 0, visualization_msgs::Marker::LINE_LIST, spf::Pose2{}, 0.05);
+    marker.scale.x = 0.04;
+    marker.color = color(0.2F, 0.2F, 0.2F);
+    for (const Segment& segment : segments)
+      for (const Eigen::Vector2d& end : {segment.from, segment.to}) {
+        geometry_msgs::Point point;
+        point.x = end.x();
+        point.y = end.y();
+        marker.points.push_back(point);
+      }
+  }
   [[nodiscard]] visualization_msgs::MarkerArray take() { return std::move(array_); }
 
  private:
@@ -134,6 +169,13 @@ void add_place(const Scenario& scenario, WorldMarkers& markers) {
     markers.disc("disc", id++, disc.center, disc.radius, kHeight, color(0.45F, 0.47F, 0.5F, 0.8F));
   id = 0;
   for (const Segment& wall : scenario.walls) markers.line("wall", id++, {wall.from, wall.to});
+  id = 0;
+  for (const spf::sim::Polygon& polygon : scenario.polygons) {
+    std::vector<Eigen::Vector2d> outline = polygon.corners;
+    outline.push_back(outline.front());
+    markers.line("polygon", id++, outline);
+  }
+  if (scenario.map) markers.segments("map", scenario.map->faces());
   if (!scenario.border) return;
   const Box& border = *scenario.border;
   markers.line("border", 0,
