@@ -125,7 +125,7 @@ TEST_F(MapFiles, APictureMayStandAlone) {
 TEST_F(MapFiles, AreRefusedWithFileKeyValueAndLimit) {
   write("strip.pgm", kStrip);
   EXPECT_EQ(wrong_with("image: strip.pgm\n"),
-            "map.yaml:1:1: origin is missing\nmap.yaml:1:1: resolution is missing");
+            "map.yaml:1:1: resolution is missing\nmap.yaml:1:1: origin is missing");
   EXPECT_EQ(wrong_with("image: strip.pgm\nresolution: 0\norigin: [0, 0, 0]\n"),
             "map.yaml:2:13: resolution = 0 must lie in [0.001, 100] m");
   EXPECT_EQ(wrong_with("image: strip.pgm\nresolution: 1\norigin: [0, 0]\n"),
@@ -134,7 +134,8 @@ TEST_F(MapFiles, AreRefusedWithFileKeyValueAndLimit) {
             "map.yaml:3:9: origin = [0, 0, 90] must have a heading in [-6.3, 6.3] rad");
   EXPECT_EQ(wrong_with(kYaml + "mode: tri\n"),
             "map.yaml:4:7: mode = tri must be one of trinary, scale, raw; did you mean trinary?");
-  EXPECT_EQ(wrong_with(kYaml + "negate: 2\n"), "map.yaml:4:9: negate = 2 must be one of 0, 1, false, true");
+  EXPECT_EQ(wrong_with(kYaml + "negate: 2\n"),
+            "map.yaml:4:9: negate = 2 must be one of 0, 1, false, true; did you mean 0?");
   EXPECT_EQ(wrong_with(kYaml + "free_thresh: 0.7\n"),
             "map.yaml:4:14: free_thresh = 0.7 contradicts: free_thresh must be less than occupied_thresh");
   EXPECT_EQ(wrong_with(kYaml + "occupied_tresh: 0.7\n"),
@@ -178,7 +179,7 @@ TEST_F(MapFiles, LieBesideTheirScenarioAndBelongToIt) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("bad.yaml:3:34: robots[0].goal = [9, 2] is in an occupied cell of the "
+                HasSubstr("bad.yaml:3:32: robots[0].goal = [9, 2] is in an occupied cell of the "
                           "map, or beyond its edges"));
   }
 }

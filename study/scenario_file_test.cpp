@@ -220,7 +220,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScenario{"family: explicit\n" ROBOT "polygons:\n - {}",
                     "file.yaml:4:4: polygons[0].corners is missing"},
         BadScenario{"family: explicit\n" ROBOT "polygons:\n - corners: [[0, 1], [1, 1e6], [2, 1]]",
-                    "file.yaml:4:25: polygons[0].corners[1][1] = 1e6 must lie in [-1e+05, 1e+05] m"},
+                    "file.yaml:4:26: polygons[0].corners[1][1] = 1e6 must lie in [-1e+05, 1e+05] m"},
         BadScenario{"family: explicit\n" ROBOT "polygons:\n - corners: [[0, 2], [1, 3], [1, 2], [0, 3]]",
                     "file.yaml:4:13: polygons[0].corners = [[0, 2], [1, 3], [1, 2], [0, 3]] must not cross "
                     "themselves: the sides from corner 0 and from corner 2 meet"},
