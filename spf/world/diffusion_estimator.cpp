@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kPriorDuration = 4.0;  // [s] of data that the prior is worth at first
 constexpr double kMemory = 20.0;        // [s] time constant of forgetting
+constexpr double kPriorTime = 10.0;     // [s] of moving obstacles that the parameters are worth
+constexpr double kMostTime = 60.0;      // [s] of moving obstacles that are remembered together
 constexpr double kShortLag = 0.3;       // [s] of the second differences
 constexpr double kLongLag = 1.0;        // [s]
 
@@ -27,10 +29,24 @@ double robust_part(double square, double expected, bool& outlier) {
 
 }  // namespace
 
-DiffusionEstimator::DiffusionEstimator(const DiffusionParameters& parameters)
+void DiffusionPopulation::learn(double dt, double velocity_diffusion, double position_diffusion) {
+  if (!(dt > 0.0)) return;
+  time_ = std::min(time_ + dt, kMostTime);
+  const double part = std::min(dt / time_, 1.0);
+  mean_.velocity += part * (velocity_diffusion / parameters_.prior_velocity_diffusion - mean_.velocity);
+  mean_.position += part * (position_diffusion / parameters_.prior_position_diffusion - mean_.position);
+}
+
+DiffusionFactors DiffusionPopulation::prior() const {
+  const double part = time_ / (time_ + kPriorTime);
+  return {1.0 + part * (mean_.velocity - 1.0), 1.0 + part * (mean_.position - 1.0)};
+}
+
+DiffusionEstimator::DiffusionEstimator(const DiffusionParameters& parameters, const DiffusionFactors& prior)
     : parameters_{validated(parameters)},
-      velocity_diffusion_{parameters.prior_velocity_diffusion},
-      position_diffusion_{parameters.prior_position_diffusion} {}
+      prior_{prior},
+      velocity_diffusion_{prior.velocity * parameters.prior_velocity_diffusion},
+      position_diffusion_{prior.position * parameters.prior_position_diffusion} {}
 
 const DiffusionEstimator::Sample& DiffusionEstimator::history(int age) const {
   return ring_[static_cast<std::size_t>((newest_ - age + kHistory) % kHistory)];
@@ -159,7 +175,7 @@ void DiffusionEstimator::solve() {
     constexpr double kLeast = 0.25;  // [s]
     prior = std::max(prior * std::exp(-increment_time_ / prior), std::min(prior, kLeast));
     const double total = prior + increment_weight_;
-    const double square = (prior * parameters_.prior_velocity_diffusion + velocity_square_) / total;
+    const double square = (prior * prior_.velocity * parameters_.prior_velocity_diffusion + velocity_square_) / total;
     const double lagged = velocity_lagged_ / total;
     // Independent increments have a lagged mean of 0 and pure noise one of -1/2: in between it is noise only
     // when the cancelling is clear (3 standard deviations for 100 samples).
@@ -168,10 +184,11 @@ void DiffusionEstimator::solve() {
     velocity_noise_ = noisy ? -lagged * mean_interval_ : 0.0;
     velocity_factor = (noisy ? square + 2.0 * lagged : square) / parameters_.prior_velocity_diffusion;
     position_factor =
-        (prior + position_square_ / parameters_.prior_position_diffusion) / (prior + position_weight_);
+        (prior * prior_.position + position_square_ / parameters_.prior_position_diffusion) /
+        (prior + position_weight_);
   } else {
     const Eigen::Matrix2d normal = normal_ + prior * Eigen::Matrix2d::Identity();
-    const Eigen::Vector2d right = right_ + prior * Eigen::Vector2d::Ones();
+    const Eigen::Vector2d right = right_ + prior * Eigen::Vector2d{prior_.position, prior_.velocity};
     const double determinant = normal(0, 0) * normal(1, 1) - normal(0, 1) * normal(1, 0);
     position_factor = (right.x() * normal(1, 1) - right.y() * normal(0, 1)) / determinant;
     velocity_factor = (right.y() * normal(0, 0) - right.x() * normal(1, 0)) / determinant;

@@ -34,6 +34,29 @@ struct DiffusionParameters {
   }
 };
 
+/// Factors of the priors [1].
+struct DiffusionFactors {
+  double velocity = 1.0;
+  double position = 1.0;
+};
+
+/// What obstacles of this place are like: the mean of what has been learnt from those that moved. It is the
+/// prior of the next one, which is seen for a few seconds only in a crowd. The priors of the parameters count
+/// as kPriorTime of it.
+class DiffusionPopulation {
+ public:
+  explicit DiffusionPopulation(const DiffusionParameters& parameters = {}) : parameters_{parameters} {}
+
+  /// Another `dt` [s] of a moving obstacle, of which these diffusions are believed.
+  void learn(double dt, double velocity_diffusion, double position_diffusion);
+  [[nodiscard]] DiffusionFactors prior() const;
+
+ private:
+  DiffusionParameters parameters_;
+  double time_ = 0.0;  // [s]
+  DiffusionFactors mean_;
+};
+
 /// Learns from samples of one obstacle in the order of time, by what a sample holds:
 ///  - with velocity: from the increments of the velocity and what these leave of the position's increments.
 ///    Neighbouring increments that cancel out are noise of the reported velocity, not motion.
@@ -44,7 +67,8 @@ struct DiffusionParameters {
 /// Single outliers (a bounce off a wall) are clipped or left out, so that they do not raise the diffusion.
 class DiffusionEstimator {
  public:
-  explicit DiffusionEstimator(const DiffusionParameters& parameters = {});
+  explicit DiffusionEstimator(const DiffusionParameters& parameters = {},
+                              const DiffusionFactors& prior = {});
 
   void update(double time, const Eigen::Vector2d& position, double position_sigma,
               const Eigen::Vector2d& velocity);
@@ -76,6 +100,7 @@ class DiffusionEstimator {
   [[nodiscard]] const Sample* sample_near(double time) const;
 
   DiffusionParameters parameters_;
+  DiffusionFactors prior_;
   double velocity_diffusion_;
   double position_diffusion_;
   double velocity_noise_ = 0.0;

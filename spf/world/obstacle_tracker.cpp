@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kCusumLimit = 3.0;       // [1] sigmas; a larger cusum means a new motion (a bounce)
 constexpr double kCusumForgetting = 0.7;  // [1] from one innovation to the next: a cusum shows within three
+constexpr double kMoving = 0.3;           // [1] of initial_speed: what stands tells nothing of how others move
 constexpr double kOneEvent = 2.0;         // [s] changes closer together than this are no single event
 
 bool well_formed(const Detection& detection) {
@@ -55,7 +56,7 @@ void correct_velocity(ObstacleTrack& track, const Eigen::Vector2d& innovation, d
 }  // namespace
 
 ObstacleTracker::ObstacleTracker(const ObstacleTrackerParameters& parameters)
-    : parameters_{validated(parameters)} {}
+    : parameters_{validated(parameters)}, population_{parameters.diffusion} {}
 
 void ObstacleTracker::update(const Observation& observation) {
   if (!std::isfinite(observation.time)) {
@@ -100,7 +101,7 @@ void ObstacleTracker::enter(const Detection& detection, double time) {
 void ObstacleTracker::begin_track(std::size_t slot, const Detection& detection, double time) {
   Memory memory;
   memory.last_seen = time;
-  memory.diffusion = DiffusionEstimator{parameters_.diffusion};
+  memory.diffusion = DiffusionEstimator{parameters_.diffusion, population_.prior()};
   const double sigma = std::max(detection.position_sigma, parameters_.least_sigma);
   ObstacleTrack track;
   track.id = detection.id;
@@ -171,6 +172,8 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   }
   track.position_diffusion = memory.diffusion.position_diffusion();
   track.velocity_diffusion = memory.diffusion.velocity_diffusion();
+  if (track.state.velocity_world.norm() > kMoving * parameters_.initial_speed)
+    population_.learn(dt, track.velocity_diffusion, track.position_diffusion);
 }
 
 void ObstacleTracker::drop_unseen(double time) {

@@ -83,6 +83,7 @@ class ObstacleTracker {
   ObstacleTrackerStats stats_;
   std::vector<ObstacleTrack> tracks_;
   std::vector<Memory> memories_;
+  DiffusionPopulation population_;
 };
 
 }  // namespace spf
