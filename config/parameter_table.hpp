@@ -15,12 +15,13 @@ namespace spf {
 
 template <>
 struct EnumNames<Scale> {
-  static constexpr std::array<std::pair<Scale, const char*>, 7> values{
+  static constexpr std::array<std::pair<Scale, const char*>, 8> values{
       {{Scale::size, "size"},
        {Scale::stopping_distance, "distance"},
        {Scale::speed, "speed"},
        {Scale::time, "time"},
        {Scale::area, "size^2"},
+       {Scale::acceleration, "speed/time"},
        {Scale::velocity_diffusion, "speed^2/time"},
        {Scale::position_diffusion, "distance^2/time"}}};
 };

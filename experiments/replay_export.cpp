@@ -71,18 +71,18 @@ void add_map(ReplayData& data, const sim::StaticMap& map) {
     return point(cells.origin_world.position_world + turn * local);
   };
   for (const host::CellBlock& block : host::occupied_blocks(cells))
-    data.blocks.push_back({corner(block.first_column, block.first_row),
-                           corner(block.end_column, block.first_row), corner(block.end_column, block.end_row),
-                           corner(block.first_column, block.end_row)});
+    data.shapes.blocks.push_back(
+        {corner(block.first_column, block.first_row), corner(block.end_column, block.first_row),
+         corner(block.end_column, block.end_row), corner(block.first_column, block.end_row)});
 }
 
 void describe_place(ReplayData& data, const sim::Scenario& scenario) {
   data.bounds = bounds_of(scenario);
-  for (const sim::Box& box : scenario.boxes) data.boxes.push_back({point(box.low), point(box.high)});
-  for (const sim::Segment& wall : scenario.walls) add_wall(data.boxes, wall);
-  for (const sim::Disc& disc : scenario.discs) data.discs.push_back({point(disc.center), disc.radius});
+  for (const sim::Box& box : scenario.boxes) data.shapes.boxes.push_back({point(box.low), point(box.high)});
+  for (const sim::Segment& wall : scenario.walls) add_wall(data.shapes.boxes, wall);
+  for (const sim::Disc& disc : scenario.discs) data.shapes.discs.push_back({point(disc.center), disc.radius});
   for (const sim::Polygon& polygon : scenario.polygons) {
-    std::vector<ReplayPoint>& corners = data.polygons.emplace_back();
+    std::vector<ReplayPoint>& corners = data.shapes.polygons.emplace_back();
     for (const Eigen::Vector2d& position : polygon.corners) corners.push_back(point(position));
   }
   if (scenario.map) add_map(data, *scenario.map);

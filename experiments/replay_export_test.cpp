@@ -71,10 +71,10 @@ TEST(ReplayExport, OutlinesTheFieldAroundTheObstacle) {
 
 TEST(ReplayExport, DrawsEverythingThatStandsStill) {
   const auto [config, trial, data] = exported(kScene);
-  ASSERT_EQ(data.discs.size(), 1u);
-  EXPECT_EQ(data.discs[0].radius, 0.3);
-  ASSERT_GE(data.boxes.size(), 3u);  // the box, the slanted wall in pieces, the straight wall in one
-  for (const ReplayBox& box : data.boxes) {
+  ASSERT_EQ(data.shapes.discs.size(), 1u);
+  EXPECT_EQ(data.shapes.discs[0].radius, 0.3);
+  ASSERT_GE(data.shapes.boxes.size(), 3u);  // the box, the slanted wall in pieces, the straight wall in one
+  for (const ReplayBox& box : data.shapes.boxes) {
     EXPECT_LT(box.low.x, box.high.x);
     EXPECT_LT(box.low.y, box.high.y);
   }
@@ -94,10 +94,10 @@ TEST(ReplayExport, DrawsPolygonsAndTheCellsOfAMap) {
       exported("robots: [{start: [0, 0], goal: [3, 0]}]\nmap: \"" + picture +
                "\"\nmap_settings: {image_resolution: 0.1, image_origin: [-1, -1], image_heading: 0.1}\n"
                "polygons: [{corners: [[1, 1], [2, 1], [1.5, 1.8]]}]\n");
-  ASSERT_EQ(data.polygons.size(), 1u);
-  EXPECT_EQ(data.polygons[0][2].y, 1.8);
-  ASSERT_EQ(data.blocks.size(), 1u);  // a bar of three rows, 8 m long
-  const auto& [a, b, c, d] = data.blocks[0];
+  ASSERT_EQ(data.shapes.polygons.size(), 1u);
+  EXPECT_EQ(data.shapes.polygons[0][2].y, 1.8);
+  ASSERT_EQ(data.shapes.blocks.size(), 1u);  // a bar of three rows, 8 m long
+  const auto& [a, b, c, d] = data.shapes.blocks[0];
   EXPECT_NEAR(std::hypot(b.x - a.x, b.y - a.y), 8.0, 1e-9);
   EXPECT_NEAR(std::hypot(d.x - a.x, d.y - a.y), 0.3, 1e-9);
   EXPECT_NEAR(std::atan2(c.y - d.y, c.x - d.x), 0.1, 1e-9);

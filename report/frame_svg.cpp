@@ -103,11 +103,11 @@ void draw_map(Drawing& drawing, const ReplayData& data) {
   const std::string wall =
       "fill=\"" + drawing.color("wall") + "\" fill-opacity=\"0.35\" stroke=\"" + drawing.color("wall") + "\"";
   drawing.box(data.bounds, "fill=\"none\" stroke=\"" + drawing.color("control") + "\"");
-  for (const ReplayBox& box : data.boxes) drawing.box(box, wall);
-  for (const ReplayDisc& disc : data.discs) drawing.circle(disc.center, disc.radius, wall);
-  for (const std::vector<ReplayPoint>& polygon : data.polygons) drawing.polygon(polygon, wall);
+  for (const ReplayBox& box : data.shapes.boxes) drawing.box(box, wall);
+  for (const ReplayDisc& disc : data.shapes.discs) drawing.circle(disc.center, disc.radius, wall);
+  for (const std::vector<ReplayPoint>& polygon : data.shapes.polygons) drawing.polygon(polygon, wall);
   const std::string block = "fill=\"" + drawing.color("wall") + "\" fill-opacity=\"0.6\"";
-  for (const std::array<ReplayPoint, 4>& corners : data.blocks) drawing.polygon(corners, block);
+  for (const std::array<ReplayPoint, 4>& corners : data.shapes.blocks) drawing.polygon(corners, block);
 }
 
 void draw_obstacle(Drawing& drawing, const ReplayObstacle& obstacle, std::size_t frame) {

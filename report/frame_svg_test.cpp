@@ -93,8 +93,8 @@ TEST(FrameSvg, DrawsPolygonsAndMaps) {
     return count;
   };
   const std::size_t before = polygons();
-  data.polygons = {{{0.0, 0.0}, {1.0, 0.0}, {0.5, 1.0}}};
-  data.blocks = {{{{2.0, 2.0}, {3.0, 2.0}, {3.0, 2.1}, {2.0, 2.1}}}};
+  data.shapes.polygons = {{{0.0, 0.0}, {1.0, 0.0}, {0.5, 1.0}}};
+  data.shapes.blocks = {{{{2.0, 2.0}, {3.0, 2.0}, {3.0, 2.1}, {2.0, 2.1}}}};
   EXPECT_EQ(polygons(), before + 2);
 }
 

@@ -135,6 +135,14 @@ struct ReplayEvent {
   std::optional<ReplayPoint> position;  ///< where it happened; marked in the scene for contacts
 };
 
+/// What stands.
+struct ReplayShapes {
+  std::vector<ReplayBox> boxes;
+  std::vector<ReplayDisc> discs;
+  std::vector<std::vector<ReplayPoint>> polygons;  ///< filled, each by its corners
+  std::vector<std::array<ReplayPoint, 4>> blocks;  ///< of a map of cells: filled, without an outline
+};
+
 struct ReplayData {
   std::string title, family, method, noise, tracking;
   double level = 0.0;  ///< [1] noise level, in units of Sigma
@@ -144,11 +152,8 @@ struct ReplayData {
   bool success = false;
   double frame_interval = 0.1;  ///< [s]
   ReplayBox bounds{{-15.0, -15.0}, {15.0, 15.0}};
-  std::vector<ReplayBox> boxes;
-  std::vector<ReplayDisc> discs;
-  std::vector<std::vector<ReplayPoint>> polygons;  ///< filled, each by its corners
-  std::vector<std::array<ReplayPoint, 4>> blocks;  ///< of a map of cells: filled, without an outline
-  double field_threshold = 1.2;                    ///< [1] Mahalanobis distance of the drawn outlines
+  ReplayShapes shapes;
+  double field_threshold = 1.2;  ///< [1] Mahalanobis distance of the drawn outlines
   std::vector<ReplayState> states{{"moving", ReplayStateKind::moving}};
   std::vector<ReplayRobot> robots;
   std::vector<ReplayObstacle> obstacles;

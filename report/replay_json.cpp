@@ -257,9 +257,9 @@ json map_json(const ReplayData& data) {
     return json::array({length(b.low.x), length(b.low.y), length(b.high.x), length(b.high.y)});
   };
   json boxes = json::array();
-  for (const ReplayBox& b : data.boxes) boxes.push_back(box(b));
+  for (const ReplayBox& b : data.shapes.boxes) boxes.push_back(box(b));
   json discs = json::array();
-  for (const ReplayDisc& d : data.discs) {
+  for (const ReplayDisc& d : data.shapes.discs) {
     discs.push_back(json::array({length(d.center.x), length(d.center.y), length(d.radius)}));
   }
   const auto corners = [](const auto& points) {
@@ -271,9 +271,9 @@ json map_json(const ReplayData& data) {
     return list;
   };
   json polygons = json::array();
-  for (const std::vector<ReplayPoint>& polygon : data.polygons) polygons.push_back(corners(polygon));
+  for (const std::vector<ReplayPoint>& polygon : data.shapes.polygons) polygons.push_back(corners(polygon));
   json blocks = json::array();
-  for (const std::array<ReplayPoint, 4>& block : data.blocks) blocks.push_back(corners(block));
+  for (const std::array<ReplayPoint, 4>& block : data.shapes.blocks) blocks.push_back(corners(block));
   return {{"bounds", box(data.bounds)},
           {"boxes", std::move(boxes)},
           {"discs", std::move(discs)},

@@ -159,11 +159,11 @@ void ContactMonitor::check_pair(const Tick& tick, const std::vector<RobotTruth>&
 void ContactMonitor::forgive_newcomers(const std::vector<RobotTruth>& robots,
                                        const std::vector<DynamicObstacle>& dynamic_obstacles) {
   bool people = false;
-  for (const DynamicObstacle& obstacle : dynamic_obstacles) people = people || obstacle.person;
+  for (const DynamicObstacle& obstacle : dynamic_obstacles) people = people || obstacle.appears;
   if (!people && people_present_.empty()) return;
   std::set<int> present;
   for (const DynamicObstacle& obstacle : dynamic_obstacles) {
-    if (!obstacle.person) continue;
+    if (!obstacle.appears) continue;
     present.insert(obstacle.id);
     const bool is_new = people_present_.count(obstacle.id) == 0;
     for (std::size_t i = 0; i < robots.size(); ++i) {

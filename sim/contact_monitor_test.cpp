@@ -23,11 +23,11 @@ class Stage {
     robots_[robot].motion = {from, to};
     robots_[robot].velocity_world = (to - from) / kDt;
   }
-  void put_person(int id, const Eigen::Vector2d& at) {
-    dynamic_obstacles_ = {{id, true, 0.25, {at, at}, {0.0, 0.0}}};
+  void put_person(int id, const Eigen::Vector2d& at, bool appears = true) {
+    dynamic_obstacles_ = {{id, true, appears, 0.25, {at, at}, {0.0, 0.0}}};
   }
   void put_disc(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-    dynamic_obstacles_ = {{0, false, 0.4, {from, to}, (to - from) / DynamicObstacles::kStep}};
+    dynamic_obstacles_ = {{0, false, false, 0.4, {from, to}, (to - from) / DynamicObstacles::kStep}};
   }
   void clear_movers() { dynamic_obstacles_.clear(); }
   RobotTruth& robot(std::size_t index) { return robots_[index]; }
@@ -72,6 +72,18 @@ TEST(ContactMonitor, RecordsWhoWithWhatWhenAndHowFast) {
   EXPECT_NEAR(contact.time, kDt + 0.7 * kDt, 1e-9);
   EXPECT_NEAR(contact.robot_speed, 1.0, 1e-9);
   EXPECT_NEAR(contact.other_speed, 1.0, 1e-9);
+}
+
+TEST(ContactMonitor, ForgivesOnlyPeopleWhoAppearOutOfNowhere) {
+  for (const bool appears : {true, false}) {
+    Stage stage{1};
+    stage.put(0, {0.0, 0.0}, {0.0, 0.0});
+    stage.put_person(7, {1.4, 0.0}, appears);
+    stage.run(0.1);
+    stage.put(0, {0.5, 0.0}, {1.0, 0.0});
+    stage.put_person(7, {1.0, 0.0}, appears);
+    EXPECT_EQ(stage.run().contacts().empty(), appears);
+  }
 }
 
 TEST(ContactMonitor, FastRobotsDoNotJumpThroughEachOther) {

@@ -30,10 +30,10 @@ void DynamicObstacles::advance(double time, const std::vector<RobotTruth>& robot
     const auto index = static_cast<std::size_t>(i);
     const ObstacleState& now = discs_.now()[index];
     const Motion motion{now.position_world, discs_.next()[index].position_world};
-    dynamic_obstacles_.push_back({i, false, now.radius, motion, now.velocity_world});
+    dynamic_obstacles_.push_back({i, false, false, now.radius, motion, now.velocity_world});
   }
   crowd_.visit(time, kStep, [&](int id, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-    dynamic_obstacles_.push_back({discs + id, true, person_radius_, {from, to}, (to - from) / kStep});
+    dynamic_obstacles_.push_back({discs + id, true, true, person_radius_, {from, to}, (to - from) / kStep});
   });
   if (!walkers_.empty()) advance_walkers(robots);
 }
@@ -56,8 +56,8 @@ void DynamicObstacles::advance_walkers(const std::vector<RobotTruth>& robots) {
   walkers_.advance(others);
   for (std::size_t i = 0; i < walkers_.size(); ++i) {
     const Motion& motion = walkers_.motion(i);
-    dynamic_obstacles_.push_back({first_walker_ + static_cast<int>(i), true, walkers_.radius(i), motion,
-                                  (motion.to - motion.from) / kStep});
+    dynamic_obstacles_.push_back({first_walker_ + static_cast<int>(i), true, false, walkers_.radius(i),
+                                  motion, (motion.to - motion.from) / kStep});
   }
 }
 

@@ -16,6 +16,7 @@ struct DynamicObstacle {
   int id = 0;  ///< as the detector reports it: discs 0, 1, 2, ...; those recorded follow after the last disc,
                ///< then those with waypoints
   bool person = false;
+  bool appears = false;                                      ///< may be anywhere at first: a recorded person
   double radius = 0.0;                                       ///< [m]
   Motion motion;                                             ///< over the current step
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s] what an exact detector reports

@@ -238,7 +238,10 @@ void check_robots(Report& report, const Scenario& scenario) {
     }
     for (std::size_t p = 0; p < scenario.people.size(); ++p) {
       const PersonTask& person = scenario.people[p];
-      if (person.anywhere || person.waypoints.empty()) continue;
+      const auto elsewhere = [&](const Eigen::Vector2d& point) { return point != person.waypoints.front(); };
+      const bool draws =
+          person.anywhere && std::any_of(person.waypoints.begin(), person.waypoints.end(), elsewhere);
+      if (person.waypoints.empty() || draws) continue;
       const double gap = (task.start.position_world - person.waypoints.front()).norm();
       if (gap < scenario.robot.radius + person.radius) inside.add(gap, "people", p);
     }

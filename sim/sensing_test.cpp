@@ -25,7 +25,7 @@ struct Scene {
   void add_mover(int id, double x, double y) {
     const Eigen::Vector2d position{x, y};
     dynamic_obstacles.push_back(
-        {id, false, 0.4, {position, position + Eigen::Vector2d{0.1, 0.0}}, {1.0, 0.0}});
+        {id, false, false, 0.4, {position, position + Eigen::Vector2d{0.1, 0.0}}, {1.0, 0.0}});
   }
   Observation observe(Sensing& sensing, int robot, double time = 0.0, double share = 0.0) {
     Observation observation;

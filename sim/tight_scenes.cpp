@@ -115,6 +115,9 @@ bool draw_clutter(RandomStream& random, const LayoutParameters& layout, Scenario
   for (int row = -end; row <= end; ++row)
     for (const int column : {-1, kColumns})
       scenario.discs.push_back({{PillarGrid::position(column, 0).x(), kPitch * row}, radius});
+  // Nobody goes round outside.
+  const double side = PillarGrid::position(kColumns, 0).x();
+  scenario.border = Box{{-side, -kPitch * end}, {side, kPitch * end}};
   add_task({0.0, -kEnd}, {0.0, kEnd}, scenario);
   return passable(scenario, layout.passable_radius);
 }
@@ -128,6 +131,8 @@ bool draw_doors(RandomStream& random, const LayoutParameters& layout, Scenario& 
   scenario.border = kPlace;
   scenario.boxes.push_back({{wall - half_wall, middle + 0.5 * width}, {wall + half_wall, kPlace.high.y()}});
   scenario.boxes.push_back({{wall - half_wall, kPlace.low.y()}, {wall + half_wall, middle - 0.5 * width}});
+  if (scenario.boxes[0].low.y() >= kPlace.high.y() || scenario.boxes[1].high.y() <= kPlace.low.y())
+    return false;
   const double start = random.uniform(-3.0, 3.0);
   add_task({-4.0, start}, {4.0, random.uniform(-3.0, 3.0)}, scenario);
   return true;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kFastest = 15.0;                // [m/s] faster than any person runs
 constexpr double kLongestRecording = 1e7;        // [s]; times that begin later are counted from the first one
 constexpr std::int64_t kSimulatedIds = 1000000;  // ids from here on are the simulator's own
+constexpr double kLongestFrame = 1000.0;         // [s]
 constexpr std::size_t kLongestShown = 60;        // bytes of a value in a message
 
 std::string shown(std::string_view text) {
@@ -90,6 +91,9 @@ double CrowdCollector::median_step() const {
 void CrowdCollector::convert_frames(double frame_rate) {
   const double interval = sample_rate_ > 0.0 ? 1.0 / sample_rate_ : kUsualInterval;
   const double seconds_per_frame = frame_rate > 0.0 ? 1.0 / frame_rate : interval / median_step();
+  if (!(std::isfinite(seconds_per_frame) && seconds_per_frame > 0.0 && seconds_per_frame <= kLongestFrame))
+    return refuse("frame_rate gives " + to_text(seconds_per_frame) +
+                  " s a frame: must be above 0 and at most " + to_text(kLongestFrame));
   for (Line& line : lines_) line.time *= seconds_per_frame;
 }
 
@@ -139,6 +143,7 @@ std::vector<sim::CrowdSample> CrowdCollector::finish(double frame_rate) {
   const auto earlier = [](const Line& a, const Line& b) { return a.time < b.time; };
   std::stable_sort(lines_.begin(), lines_.end(), earlier);
   if (clock_ == CrowdClock::frames) convert_frames(frame_rate);
+  if (!problems_.empty()) return {};
   const double first = lines_.front().time;
   const double duration = lines_.back().time - first;
   if (duration > kLongestRecording) {

@@ -2,7 +2,10 @@
 
 #include <png.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <string>
 
 namespace spf {
 namespace {
@@ -12,9 +15,34 @@ struct PngFree {
   void operator()(png_image* image) const { png_image_free(image); }
 };
 
+std::size_t big_endian(std::string_view bytes) {
+  std::size_t number = 0;
+  for (const char byte : bytes.substr(0, 4)) number = (number << 8U) | static_cast<unsigned char>(byte);
+  return number;
+}
+
+/// The chunks that make the picture. Others may unfold to gigabytes of text, or have libpng convert
+/// brightness that is meant as it is. What follows a chunk that does not fit is left to libpng to refuse.
+std::string chunks_of_picture(std::string_view bytes) {
+  constexpr std::size_t kSignature = 8;
+  constexpr std::size_t kFrame = 12;  // length, name and checksum
+  constexpr std::array<std::string_view, 5> kNeeded{"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
+  std::string kept{bytes.substr(0, kSignature)};
+  std::size_t at = kept.size();
+  while (bytes.size() - at >= kFrame) {
+    const std::size_t size = kFrame + big_endian(bytes.substr(at));
+    if (size > bytes.size() - at) break;
+    if (std::find(kNeeded.begin(), kNeeded.end(), bytes.substr(at + 4, 4)) != kNeeded.end())
+      kept += bytes.substr(at, size);
+    at += size;
+  }
+  return kept += bytes.substr(at);
+}
+
 }  // namespace
 
-std::string read_png(std::string_view bytes, GreyImage& image) {
+std::string read_png(std::string_view file, GreyImage& image) {
+  const std::string bytes = chunks_of_picture(file);
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, PngFree> owner{&png};

@@ -181,11 +181,11 @@ ReplayData sample_replay(const SampleReplayRequest& request) {
   data.seed = 20240501;
   data.outcome = "collision";
   data.bounds = {{-11.0, -11.0}, {11.0, 11.0}};
-  data.boxes = {kBoxA, kBoxB};
-  data.discs = {{{6.0, 6.0}, 0.5}, {{-8.0, -7.0}, 0.35}};
-  data.polygons = {{{8.0, -9.0}, {10.0, -9.0}, {9.5, -7.5}}};
-  data.blocks = {{{{-10.0, 8.0}, {-8.0, 8.0}, {-8.0, 8.2}, {-10.0, 8.2}}},
-                 {{{-10.0, 8.2}, {-9.8, 8.2}, {-9.8, 10.0}, {-10.0, 10.0}}}};
+  data.shapes.boxes = {kBoxA, kBoxB};
+  data.shapes.discs = {{{6.0, 6.0}, 0.5}, {{-8.0, -7.0}, 0.35}};
+  data.shapes.polygons = {{{8.0, -9.0}, {10.0, -9.0}, {9.5, -7.5}}};
+  data.shapes.blocks = {{{{-10.0, 8.0}, {-8.0, 8.0}, {-8.0, 8.2}, {-10.0, 8.2}}},
+                        {{{-10.0, 8.2}, {-9.8, 8.2}, {-9.8, 10.0}, {-10.0, 10.0}}}};
   const int moving = state_index(data, "moving", ReplayStateKind::moving);
   const int braking = state_index(data, "braking: obstacle 0 ahead in 0.8 s", ReplayStateKind::braking);
   const int waiting = state_index(data, "waiting: no plan past obstacle 0", ReplayStateKind::waiting);

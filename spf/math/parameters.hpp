@@ -24,6 +24,7 @@ enum class Scale {
   size,                ///< radius of the robot
   stopping_distance,   ///< distance within which it can turn or stop
   speed,               ///< its speed
+  acceleration,        ///< speed / time
   time,                ///< time in which it can stop or clear its own footprint
   area,                ///< size squared
   velocity_diffusion,  ///< speed^2 / time

@@ -21,9 +21,22 @@ CostToGo::CostToGo(const CostToGoParameters& parameters, double robot_radius, do
       clearance_{parameters.clearance + robot_radius},
       least_clearance_{robot_radius + std::min(parameters.clearance, least_margin)} {}
 
-Eigen::Vector2d CostToGo::local_position(std::int32_t index) const {
-  if (!place_.empty()) return place_[static_cast<std::size_t>(index)].cast<double>();
+void CostToGo::set_standing(const std::vector<StandingDisc>& discs, double speed) {
+  standing_ = discs;
+  standing_speed_ = speed;
+}
+
+Eigen::Vector2d CostToGo::grid_position(std::int32_t index) const {
   return window_.resolution * Eigen::Vector2d{index % window_.width, index / window_.width};
+}
+
+Eigen::Vector2d CostToGo::local_position(std::int32_t index) const {
+  if (!wavefront_.place.empty()) return wavefront_.place[static_cast<std::size_t>(index)].cast<double>();
+  if (index >= window_count()) return bends_[static_cast<std::size_t>(index - window_count())].cast<double>();
+  const auto by_node = [](const Moved& moved, std::int32_t wanted) { return moved.node < wanted; };
+  const auto moved = std::lower_bound(moved_.begin(), moved_.end(), index, by_node);
+  if (moved == moved_.end() || moved->node != index) return grid_position(index);
+  return grid_position(index) + kMovedUnit * window_.resolution * Eigen::Vector2d{moved->x, moved->y};
 }
 
 double CostToGo::cost_at(const Node& node, const Eigen::Vector2d& local) const {
@@ -92,6 +105,16 @@ Eigen::Vector2d CostToGo::direction(const Eigen::Vector2d& position_world) const
   return length > 1e-9 ? Eigen::Vector2d{-gradient / length} : Eigen::Vector2d{0.0, 0.0};
 }
 
+/// Whether a corner has just been passed on the way to the parent of a node there. A node that is not at its
+/// place of the grid may lie behind the positions of its cell.
+bool CostToGo::passed(const Eigen::Vector2d& corner, std::int32_t index, const Eigen::Vector2d& local) const {
+  if (!narrow() || index < 0) return false;
+  const Node& node = node_at(index);
+  const Eigen::Vector2d offset = local - corner;
+  const Eigen::Vector2d onwards = Eigen::Vector2d{node.parent_x, node.parent_y} - corner;
+  return offset.norm() < window_.resolution && (onwards.isZero() || offset.dot(onwards) > 0.0);
+}
+
 std::int32_t CostToGo::best_corner(const Cell& cell) const {
   std::int32_t best = cell.node[0];
   double lowest = std::numeric_limits<double>::infinity();
@@ -120,17 +143,21 @@ void CostToGo::walk(const Eigen::Vector2d& position_world, const Visit& visit) c
   // Where the four nodes have different parents, the straight line from here to one of these may clip an
   // edge.
   const Node& first = node_at(corner);
-  if (!agreed && !on_blocked_ground(first) && !visit(local_position(corner))) return;
+  bool on_way = agreed || passed(local_position(corner), corner, cell.local);
+  if (!on_way && !on_blocked_ground(first) && !visit(local_position(corner))) return;
   std::int32_t index = corner;
   if (on_blocked_ground(first) && first.parent_node != kBlocked) {
     index = nearest_reached_of(first);
-    if (!visit(local_position(index))) return;
+    on_way = passed(local_position(index), index, cell.local);
+    if (!on_way && !visit(local_position(index))) return;
   }
   // Costs fall from parent to parent, so this ends at the goal.
   while (index >= 0) {
     const Node& node = node_at(index);
-    if (!visit(Eigen::Vector2d{node.parent_x, node.parent_y})) return;
+    const Eigen::Vector2d parent{node.parent_x, node.parent_y};
     index = node.parent_node;
+    on_way = on_way && passed(parent, index, cell.local);
+    if (!on_way && !visit(parent)) return;
   }
 }
 

@@ -16,6 +16,7 @@
 
 #include "spf/planning/cost_to_go_parameters.hpp"
 #include "spf/world/occupancy_map.hpp"
+#include "spf/world/standing.hpp"
 
 namespace spf {
 
@@ -36,6 +37,11 @@ class CostToGo {
   /// that + the resolution may be missed.
   explicit CostToGo(const CostToGoParameters& parameters, double robot_radius = 0.0,
                     double least_margin = std::numeric_limits<double>::infinity());
+
+  /// What stands in the way from the next update() on: a way through it costs the time that it will stay, at
+  /// `speed` [m/s]. Without narrow passages (see the constructor) it is not looked at.
+  void set_standing(const std::vector<StandingDisc>& discs, double speed);
+  [[nodiscard]] const std::vector<StandingDisc>& standing() const { return standing_; }
 
   /// Propagates from the goal far enough for a robot at `robot_world`. The wavefront's working memory (some
   /// 30 bytes a node) is kept from run to run when the map is being sensed, since the next update comes soon,
@@ -65,7 +71,7 @@ class CostToGo {
   void shortest_path(const Eigen::Vector2d& position_world,
                      std::vector<Eigen::Vector2d>& corners_world) const;
   /// Whether the straight way between two positions keeps the clearance that paths must keep, but for half a
-  /// cell of the map, since they graze their corners.
+  /// cell of the map (a tenth in narrow passages), since they graze their corners.
   [[nodiscard]] bool passable(const OccupancyMap& map, const Eigen::Vector2d& from_world,
                               const Eigen::Vector2d& to_world) const;
   /// Whether a path leads from this position to the goal.
@@ -88,6 +94,11 @@ class CostToGo {
     std::int32_t parent_node;  // the node that is the parent, kGoal or kUnseen; on blocked ground see
                                // nearest_reached_of
   };
+  /// A node that is not at its place of the grid.
+  struct Moved {
+    std::int32_t node;
+    std::int16_t x, y;  // offset in units of kMovedUnit * resolution
+  };
   struct Entry {
     float cost;
     std::int32_t node;
@@ -96,6 +107,8 @@ class CostToGo {
   struct Wavefront {
     std::vector<Node> nodes;  // of the window, then those at bends
     std::vector<std::uint8_t> state;
+    std::vector<std::uint8_t> dear;      // 1: near a surface or something that stands, where a way costs more
+    std::vector<Eigen::Vector2f> place;  // [m] of each node, where narrow passages are taken; else empty
     std::vector<float> surcharge;       // [m] of the way to the parent, which the node's parent_cost contains
     std::vector<Eigen::Vector2d> bend;  // [m] of a way between two neighbours
     std::vector<Entry> heap;
@@ -113,6 +126,8 @@ class CostToGo {
   }
   [[nodiscard]] bool narrow() const { return least_clearance_ < clearance_; }
   [[nodiscard]] std::int32_t window_count() const { return window_.width * window_.height; }
+  static constexpr double kMovedUnit = 1e-4;  // [1] of the resolution
+  [[nodiscard]] Eigen::Vector2d grid_position(std::int32_t index) const;
   [[nodiscard]] Eigen::Vector2d local_position(std::int32_t index) const;
   [[nodiscard]] double cost_at(const Node& node, const Eigen::Vector2d& local) const;
   [[nodiscard]] float own_cost(const Node& node, std::int32_t index) const {
@@ -123,6 +138,8 @@ class CostToGo {
     return parents_[parent_of_.empty() ? node : parent_of_[node]];
   }
   [[nodiscard]] Cell cell_of(const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] bool passed(const Eigen::Vector2d& corner, std::int32_t index,
+                            const Eigen::Vector2d& local) const;
   [[nodiscard]] std::int32_t best_corner(const Cell& cell) const;
   template <class Visit>
   void walk(const Eigen::Vector2d& position_world, const Visit& visit) const;
@@ -142,6 +159,9 @@ class CostToGo {
   [[nodiscard]] Eigen::Vector2d at_clearance(const OccupancyMap& map, const Eigen::Vector2d& local) const;
   [[nodiscard]] std::optional<double> view(const OccupancyMap& map, const Eigen::Vector2d& from,
                                            const Eigen::Vector2d& to) const;
+  [[nodiscard]] bool standing_near(const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] double standing_cost(const Eigen::Vector2d& from_world,
+                                     const Eigen::Vector2d& to_world) const;
   [[nodiscard]] std::optional<double> narrow_view(const OccupancyMap& map, const Eigen::Vector2d& from,
                                                   const Eigen::Vector2d& to) const;
   [[nodiscard]] Eigen::Vector2d roomiest(const OccupancyMap& map, const Eigen::Vector2d& node_world,
@@ -155,6 +175,7 @@ class CostToGo {
   [[nodiscard]] bool settled_at(std::int32_t index) const;
   void extend_over_blocked_ground();
   void keep(const OccupancyMap& map);
+  void keep_places();
   [[nodiscard]] std::optional<std::uint16_t> kept_beside(std::int32_t index) const;
   [[nodiscard]] std::optional<Eigen::Vector2d> nearest_free_position(const OccupancyMap& map,
                                                                      const Eigen::Vector2d& wanted) const;
@@ -169,8 +190,10 @@ class CostToGo {
   std::uint64_t map_revision_ = 0;
   bool whole_map_ = false;
   GridFrame window_;
-  // [m] from the window's origin, of nodes that are not at their place of the grid; empty: all are.
-  std::vector<Eigen::Vector2f> place_;
+  std::vector<StandingDisc> standing_;
+  double standing_speed_ = 0.0;         // [m/s] at which waiting is turned into a way
+  std::vector<Moved> moved_;            // by node
+  std::vector<Eigen::Vector2f> bends_;  // [m] nodes that are at no place of the grid, behind the window's
   // The wavefront's result. Neighbours mostly share a parent, so each is stored once.
   std::vector<Node> parents_;
   std::vector<std::uint16_t>

@@ -74,9 +74,29 @@ void CostToGo::keep(const OccupancyMap& map) {
     parent_of_.push_back(known.value_or(static_cast<std::uint16_t>(parents_.size())));
     if (!known) parents_.push_back(wavefront_.nodes[static_cast<std::size_t>(index)]);
   }
+  moved_.clear();
+  bends_.clear();
   if (map.sensed()) return;
+  keep_places();
   wavefront_ = {};
   parents_.shrink_to_fit();
+}
+
+void CostToGo::keep_places() {
+  const double unit = kMovedUnit * window_.resolution;
+  for (std::size_t index = 0; index < wavefront_.place.size(); ++index) {
+    const auto node = static_cast<std::int32_t>(index);
+    const Eigen::Vector2f& place = wavefront_.place[index];
+    if (node >= window_count()) {
+      bends_.push_back(place);
+      continue;
+    }
+    const Eigen::Vector2d offset = (place.cast<double>() - grid_position(node)) / unit;
+    const auto x = static_cast<std::int16_t>(std::lround(offset.x()));
+    const auto y = static_cast<std::int16_t>(std::lround(offset.y()));
+    if (x != 0 || y != 0) moved_.push_back({node, x, y});
+  }
+  moved_.shrink_to_fit();
 }
 
 /// Index of the stored parent of an earlier neighbour, when it is this node's too.

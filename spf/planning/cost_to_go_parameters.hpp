@@ -7,14 +7,15 @@ namespace spf {
 
 struct CostToGoParameters {
   double clearance = 0.15;      ///< [m] distance to static surfaces that paths keep beyond the robot's radius
-  double resolution = 0.2;      ///< [m] spacing of nodes, at most 1.4 times the least distance kept is used
+  double resolution = 0.2;      ///< [m] spacing of nodes; less where the distance kept asks for it
   double window_margin = 10.0;  ///< [m] the wavefront first stays this close to the box around robot and goal
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit("clearance", self.clearance, kMetresBySize, Range{0.0, 20.0},
-          "distance to static surfaces that the global path keeps beyond the robot's radius; space_time takes "
-          "narrower passages, at a price");
+    visit(
+        "clearance", self.clearance, kMetresBySize, Range{0.0, 20.0},
+        "distance to static surfaces that the global path keeps beyond the robot's radius; space_time takes "
+        "narrower passages, at a price");
     visit("resolution", self.resolution, kMetresBySize, Range{0.005, 5.0},
           "spacing of the nodes of the global path's search");
   }

@@ -14,7 +14,11 @@ constexpr double kSightSlack = 0.25;
 constexpr double kNarrowSlack = 0.1;  // likewise by exact distances
 /// [1] A metre at the least clearance costs so many more: the robot creeps there.
 constexpr double kNarrowCost = 3.0;
-constexpr int kBendRounds = 3;  // a way between neighbours bends 7 times at most
+/// [1] Room gained per metre by a move that counts: across a passage it is about 1, along it little. Nodes
+/// that moved along it would lie behind positions that they are to lead on.
+constexpr double kAcross = 0.5;
+constexpr double kNextToNothing = 0.02;  // [m]
+constexpr int kBendRounds = 3;           // a way between neighbours bends 7 times at most
 
 }  // namespace
 
@@ -34,6 +38,7 @@ std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen
   const double least = least_clearance_ - kNarrowSlack * cell;
   const double wanted = clearance_ - kSightSlack * cell;
   const double length = (to - from).norm();
+  if (!std::isfinite(length)) return std::nullopt;
   const Eigen::Vector2d start = window_.origin_world + from;
   const Eigen::Vector2d direction =
       length > 0.0 ? Eigen::Vector2d{(to - from) / length} : Eigen::Vector2d{0, 0};
@@ -44,12 +49,38 @@ std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen
     // It reads up to half a cell too little, or a little too much beside a corner.
     if (room < least + 0.1 * cell) room = map.exact_distance(here);
     if (!(room >= least)) return std::nullopt;
-    if (travelled >= length) return cost;
+    // What costs next to nothing shares its parent with its neighbours, which saves memory.
+    if (travelled >= length)
+      return (cost > kNextToNothing ? cost : 0.0) + standing_cost(start, start + length * direction);
     const double step = std::min(std::max(room - wanted, 0.5 * cell), length - travelled);
     const double lack = (wanted - room) / std::max(wanted - least, 1e-9);
     if (lack > 0.0) cost += kNarrowCost * lack * lack * step;
     travelled = step < length - travelled ? travelled + step : length;
   }
+}
+
+/// Whether a step from here to a neighbour may touch what stands.
+bool CostToGo::standing_near(const Eigen::Vector2d& position_world) const {
+  return std::any_of(standing_.begin(), standing_.end(), [&](const StandingDisc& disc) {
+    return (disc.position_world - position_world).norm() <
+           least_clearance_ + disc.radius + 1.5 * window_.resolution;
+  });
+}
+
+/// What a straight way costs [m] for what stands on it: all of the wait, wherever it enters, since beside the
+/// middle is no better; nothing on the way out, so that what stands near a goal does not make the ground
+/// around dear.
+double CostToGo::standing_cost(const Eigen::Vector2d& from_world, const Eigen::Vector2d& to_world) const {
+  double cost = 0.0;
+  const Eigen::Vector2d along = to_world - from_world;
+  for (const StandingDisc& disc : standing_) {
+    const double reach = least_clearance_ + disc.radius;
+    const Eigen::Vector2d offset = disc.position_world - from_world;
+    if (offset.squaredNorm() <= reach * reach) continue;
+    const double part = std::clamp(offset.dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
+    if ((offset - part * along).squaredNorm() < reach * reach) cost += standing_speed_ * disc.wait;
+  }
+  return cost;
 }
 
 bool CostToGo::passable(const OccupancyMap& map, const Eigen::Vector2d& from_world,
@@ -74,7 +105,7 @@ Eigen::Vector2d CostToGo::roomiest(const OccupancyMap& map, const Eigen::Vector2
       const Eigen::Vector2d trial = best + step * Eigen::Vector2d{x, y};
       if ((trial - node_world).lpNorm<Eigen::Infinity>() > reach) continue;
       const double there = map.exact_distance(trial);
-      if (there <= room + 1e-3 * step) continue;
+      if (there <= room + kAcross * step) continue;
       room = there;
       better = trial;
     }
@@ -158,7 +189,7 @@ CostToGo::Node CostToGo::parent_around_bend(const OccupancyMap& map, std::int32_
     wavefront_.nodes.push_back(
         {static_cast<float>(parent.x()), static_cast<float>(parent.y()), base, parent_node});
     wavefront_.surcharge.push_back(static_cast<float>(extra));
-    place_.push_back(way[k].cast<float>());
+    wavefront_.place.push_back(way[k].cast<float>());
     parent_node = static_cast<std::int32_t>(wavefront_.nodes.size()) - 1;
     cost += (way[k] - parent).norm() + extra;
   }

@@ -259,7 +259,9 @@ TEST(CostToGo, FindsDetoursOutsideTheWindow) {
   EXPECT_NEAR(guide.cost_to_go({-2.0, 5.0}), expected + 1.0, 0.5);
 }
 
-CostToGo guide_for_narrow_gaps() { return CostToGo{CostToGoParameters{}, 0.3, 0.02}; }
+CostToGo guide_for_narrow_gaps() {
+  return CostToGo{CostToGoParameters{}, 0.3, 0.02};
+}
 
 /// A wall along y with one door.
 std::vector<Box> wall_with_door(double wall, double thickness, double middle, double width) {
@@ -279,14 +281,13 @@ TEST(CostToGo, FindsEveryDoorThatIsWideEnough) {
     const Eigen::Vector2d start{-4.0, random.uniform(-4.0, 4.0)};
     ASSERT_EQ(guide.update(map, {4.0, random.uniform(-4.0, 4.0)}, start), CostToGoOutcome::reachable)
         << "a door of " << width << " at " << middle;
-    std::vector<Eigen::Vector2d> corners;
-    guide.shortest_path(start, corners);
     double nearest = kInfinity;
-    for (std::size_t leg = 1; leg < corners.size(); ++leg)
-      for (int part = 0; part <= 100; ++part)
-        nearest = std::min(
-            nearest,
-            nearest_surface(corners[leg - 1] + 0.01 * part * (corners[leg] - corners[leg - 1]), boxes));
+    Eigen::Vector2d here = start;
+    for (int step = 0; step < 400 && guide.cost_to_go(here) > 0.1; ++step) {
+      here = guide.descend(here, 0.05);
+      nearest = std::min(nearest, nearest_surface(here, boxes));
+    }
+    EXPECT_LT(guide.cost_to_go(here), 0.2);
     EXPECT_GT(nearest, 0.32 - 0.02) << "a door of " << width << " at " << middle;
   }
 }
@@ -311,6 +312,31 @@ TEST(CostToGo, GoesRoundNarrowGroundWhereThatIsLittleLonger) {
   guide.shortest_path({-5.0, 0.0}, corners);
   for (std::size_t leg = 1; leg < corners.size(); ++leg)
     EXPECT_TRUE(map.segment_clear(corners[leg - 1], corners[leg], 0.4));
+}
+
+/// Length of the path that a guide leads around, or through, a disc that stands for `wait` on the straight
+/// way.
+double path_past(double wait, const std::vector<Box>& boxes) {
+  const OccupancyMap map = map_with(boxes);
+  CostToGo guide = guide_for_narrow_gaps();
+  guide.set_standing({{{0.0, 0.0}, 0.3, wait}}, 1.0);
+  EXPECT_EQ(guide.update(map, {5.0, 0.0}, {-5.0, 0.0}), CostToGoOutcome::reachable);
+  std::vector<Eigen::Vector2d> corners;
+  guide.shortest_path({-5.0, 0.0}, corners);
+  double length = 0.0;
+  for (std::size_t leg = 1; leg < corners.size(); ++leg) length += (corners[leg] - corners[leg - 1]).norm();
+  return length;
+}
+
+TEST(CostToGo, GoesRoundWhatStandsWhereThatIsShorterThanToWait) {
+  EXPECT_NEAR(path_past(10.0, {}), 10.0 + 0.15, 0.15);
+  // A lane that it fills, beside another that is 6 m longer.
+  const std::vector<Box> lane{{{-3.0, 0.5}, {3.0, 4.0}}, {{-3.0, -9.0}, {3.0, -0.5}}};
+  EXPECT_NEAR(path_past(1.0, lane), 10.0, 0.2);
+  EXPECT_GT(path_past(20.0, lane), 13.0);
+  // No other way: through it, that is, to it, and there the robot waits.
+  const std::vector<Box> only{{{-3.0, 0.5}, {3.0, 9.0}}, {{-3.0, -9.0}, {3.0, -0.5}}};
+  EXPECT_NEAR(path_past(20.0, only), 10.0, 0.2);
 }
 
 TEST(CostToGo, KnowsWhenItIsOutdated) {

@@ -83,8 +83,9 @@ void CostToGo::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, c
   const Eigen::Vector2d map_low = frame.origin_world;
   const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
   // Two free nodes must not be neighbours across a wall, however thin, so their distance stays below 2
-  // clearance.
-  const double safe_spacing = least_clearance_ > 0.0 ? 1.4 * least_clearance_ : parameters_.resolution;
+  // clearance, diagonally and where either moves by half a spacing.
+  const double safe_spacing =
+      least_clearance_ > 0.0 ? (narrow() ? 0.9 : 1.4) * least_clearance_ : parameters_.resolution;
   const double spacing = std::max(std::min(parameters_.resolution, safe_spacing), frame.resolution);
   // Nodes lie on multiples of the spacing from the map's corner, so that they do not move with the window.
   const auto snapped = [&](const Eigen::Vector2d& corner) {
@@ -103,15 +104,17 @@ void CostToGo::mark_free_nodes(const OccupancyMap& map) {
   wavefront_.state.resize(count);
   wavefront_.surcharge.assign(count, 0.0F);
   wavefront_.nodes.assign(count, {0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen});
-  place_.resize(narrow() ? count : 0);
+  wavefront_.place.resize(narrow() ? count : 0);
+  wavefront_.dear.assign(narrow() ? count : 0, 0);
   std::size_t index = 0;
   for (int j = 0; j < window_.height; ++j) {
     for (int i = 0; i < window_.width; ++i, ++index) {
       Eigen::Vector2d position = window_.node_position(i, j);
       double room = map.distance(position);
       if (narrow()) {
+        wavefront_.dear[index] = room < clearance_ || standing_near(position);
         if (room < clearance_) position = roomiest(map, position, room);
-        place_[index] = (position - window_.origin_world).cast<float>();
+        wavefront_.place[index] = (position - window_.origin_world).cast<float>();
       }
       wavefront_.state[index] = room >= least_clearance_ ? unseen : blocked;
     }
@@ -149,8 +152,10 @@ void CostToGo::propagate(const OccupancyMap& map) {
 
 // Whether the line from a node to its parent passes between two neighbours that see the same parent. Nothing
 // fits between their lines of sight: they are less than 1.4 clearance apart and an inflated surface is 2
-// clearance wide. Saves most line-of-sight checks.
+// clearance wide. Saves most line-of-sight checks. Where the first step may cost more than its length the
+// line has to be looked at all the same.
 bool CostToGo::between_viewers(std::int32_t index) const {
+  if (narrow() && wavefront_.dear[static_cast<std::size_t>(index)] != 0) return false;
   const Node& node = wavefront_.nodes[static_cast<std::size_t>(index)];
   const Eigen::Vector2d to_parent = Eigen::Vector2d{node.parent_x, node.parent_y} - local_position(index);
   const double x = std::fabs(to_parent.x());

@@ -33,6 +33,8 @@ double RobotScale::factor(Scale scale) const {
       return time_;
     case Scale::area:
       return size_ * size_;
+    case Scale::acceleration:
+      return speed_ / time_;
     case Scale::velocity_diffusion:
       return speed_ * speed_ / time_;
     case Scale::position_diffusion:

@@ -19,11 +19,14 @@ GuidePolicy::GuidePolicy(const AgentParameters& parameters, const GuideNeeds& ne
     : needs_{needs},
       goal_tolerance_{parameters.team.goal_tolerance},
       cost_to_go_{for_robot(parameters, needs)},
+      max_speed_{parameters.robot.max_speed},
       next_time_{time} {}
 
 void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeeds& needs) {
   needs_ = needs;
   goal_tolerance_ = parameters.team.goal_tolerance;
+  if (max_speed_ != parameters.robot.max_speed && !cost_to_go_.standing().empty()) goal_.reset();
+  max_speed_ = parameters.robot.max_speed;
   CostToGo wanted = for_robot(parameters, needs);
   if (wanted.clearance() == cost_to_go_.clearance() &&
       wanted.least_clearance() == cost_to_go_.least_clearance() &&
@@ -33,15 +36,27 @@ void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeed
   goal_.reset();
 }
 
-void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vector2d& goal_world,
+void GuidePolicy::refresh(double time, const WorldSnapshot& world, const Eigen::Vector2d& goal_world,
                           const Eigen::Vector2d& here) {
+  const OccupancyMap& map = *world.map;
   const bool same_goal = cost_to_go_.ready() && goal_ == goal_world;
   if (same_goal && !is_due(next_time_, time)) return;
+  const bool goes_round = cost_to_go_.least_clearance() < cost_to_go_.clearance();
+  if (goes_round) choose_standing(world, here, same_goal);
+  const bool others_stand = differ(cost_to_go_.standing(), standing_);
   // What was newly sensed off the path makes no other path shorter: only one that is blocked cannot wait.
   const bool can_wait = same_goal && !is_due(update_time_ + kIdlePeriod, time);
-  if (can_wait && (cut_off_ || path_clear(map, here))) return;
-  if (same_goal && !cut_off_ && !cost_to_go_.outdated(map, goal_world, here)) return;
+  if (can_wait && (cut_off_ || path_clear(map, here)) && !others_stand) return;
+  if (same_goal && !cut_off_ && !others_stand && !cost_to_go_.outdated(map, goal_world, here)) return;
+  cost_to_go_.set_standing(standing_, max_speed_);
   cost_to_go_.update(map, goal_world, here);
+  if (goes_round && !same_goal) {  // what stands on the new way
+    choose_standing(world, here, cost_to_go_.ready());
+    if (differ(cost_to_go_.standing(), standing_)) {
+      cost_to_go_.set_standing(standing_, max_speed_);
+      cost_to_go_.update(map, goal_world, here);
+    }
+  }
   // Without a path to the goal the robot goes as near as the shortest path through the walls leads, and waits
   // there.
   cut_off_ = cost_to_go_.outcome() == CostToGoOutcome::unreachable && needs_.approaches_cut_off_goal;
@@ -51,10 +66,16 @@ void GuidePolicy::refresh(double time, const OccupancyMap& map, const Eigen::Vec
   next_time_ = time + kPeriod;
 }
 
-/// The last position on the guide's path that keeps its clearance up to there.
+/// The last position on the guide's path that keeps its clearance up to there; no nearer to the end of it
+/// than the robot keeps where there is room.
 Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const Eigen::Vector2d& here) {
   cost_to_go_.shortest_path(here, corners_);
   Eigen::Vector2d last = here;
+  Eigen::Vector2d roomy = here;
+  const auto end = [&] {
+    const double nearer = (last - roomy).norm();
+    return nearer < 2.0 * (cost_to_go_.clearance() - cost_to_go_.least_clearance()) ? roomy : last;
+  };
   const double step = map.frame().resolution;
   for (std::size_t i = 1; i < corners_.size(); ++i) {
     const Eigen::Vector2d leg = corners_[i] - corners_[i - 1];
@@ -62,8 +83,9 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
     for (int k = 1; k <= steps; ++k) {
       const Eigen::Vector2d position = corners_[i - 1] + leg * (static_cast<double>(k) / steps);
       const double room = needs_.passes_narrow_gaps ? map.exact_distance(position) : map.distance(position);
-      if (room < cost_to_go_.least_clearance()) return last;
+      if (room < cost_to_go_.least_clearance()) return end();
       last = position;
+      if (room >= cost_to_go_.clearance()) roomy = position;
     }
   }
   return last;
@@ -75,6 +97,30 @@ bool GuidePolicy::path_clear(const OccupancyMap& map, const Eigen::Vector2d& her
   for (std::size_t i = 1; i < corners_.size(); ++i)
     if (!cost_to_go_.passable(map, corners_[i - 1], corners_[i])) return false;
   return true;
+}
+
+/// What stands on the path, or stood on it when the guide led round: all else changes no path.
+void GuidePolicy::choose_standing(const WorldSnapshot& world, const Eigen::Vector2d& here, bool same_goal) {
+  find_standing(world, standing_);
+  corners_.clear();
+  if (same_goal) cost_to_go_.shortest_path(here, corners_);
+  const auto matters = [&](const StandingDisc& disc) {
+    return stands_on(corners_, disc) || known(cost_to_go_.standing(), disc);
+  };
+  standing_.erase(std::remove_if(standing_.begin(), standing_.end(),
+                                 [&](const StandingDisc& disc) { return !matters(disc); }),
+                  standing_.end());
+  keep_nearest(here, standing_);
+}
+
+bool GuidePolicy::stands_on(const std::vector<Eigen::Vector2d>& path, const StandingDisc& disc) const {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector2d leg = path[i] - path[i - 1];
+    const Eigen::Vector2d offset = disc.position_world - path[i - 1];
+    const double along = std::clamp(offset.dot(leg) / std::max(leg.squaredNorm(), 1e-12), 0.0, 1.0);
+    if ((offset - along * leg).norm() < disc.radius + cost_to_go_.least_clearance()) return true;
+  }
+  return false;
 }
 
 std::optional<GoalAccess> GuidePolicy::access(const Eigen::Vector2d& goal_world) const {

@@ -30,8 +30,9 @@ class GuidePolicy {
   /// Other parameters from now on; a guide with another clearance or resolution is computed anew.
   void reconfigure(const AgentParameters& parameters, const GuideNeeds& needs);
 
-  /// Brings the guide up to date where that is due, for a robot at `here`.
-  void refresh(double time, const OccupancyMap& map, const Eigen::Vector2d& goal_world,
+  /// Brings the guide up to date where that is due, for a robot at `here`. What stands in the world is gone
+  /// round where that is shorter than to wait.
+  void refresh(double time, const WorldSnapshot& world, const Eigen::Vector2d& goal_world,
                const Eigen::Vector2d& here);
 
   /// [s] The guide follows a changing map at most this often ...
@@ -51,10 +52,15 @@ class GuidePolicy {
   [[nodiscard]] bool path_clear(const OccupancyMap& map, const Eigen::Vector2d& here);
   [[nodiscard]] Eigen::Vector2d last_free_position(const OccupancyMap& map, const Eigen::Vector2d& here);
 
+  void choose_standing(const WorldSnapshot& world, const Eigen::Vector2d& here, bool same_goal);
+  [[nodiscard]] bool stands_on(const std::vector<Eigen::Vector2d>& path, const StandingDisc& disc) const;
+
   GuideNeeds needs_;
   double goal_tolerance_;  // [m]
   CostToGo cost_to_go_;
   std::vector<Eigen::Vector2d> corners_;  // [m] kept for its memory
+  std::vector<StandingDisc> standing_;    // likewise
+  double max_speed_;                      // [m/s]
   std::optional<Eigen::Vector2d> goal_;   // [m] that the guide stands for
   bool cut_off_ = false;
   double next_time_;           // [s]

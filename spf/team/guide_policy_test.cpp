@@ -14,12 +14,18 @@ const std::vector<TrueBox> kRing{{{2.0, -2.0}, {6.0, -1.5}},
 const Eigen::Vector2d kHere{-4.0, 0.0};
 const Eigen::Vector2d kGoal{4.0, 0.0};
 
+WorldSnapshot on(const OccupancyMap& map) {
+  WorldSnapshot world;
+  world.map = &map;
+  return world;
+}
+
 TEST(GuidePolicy, LeadsToTheGoalAndFollowsANewOneAtOnce) {
   GuidePolicy guide{AgentParameters{}, {true}, 0.0};
   const OccupancyMap map = empty_map();
-  guide.refresh(0.0, map, kGoal, kHere);
+  guide.refresh(0.0, on(map), kGoal, kHere);
   EXPECT_NEAR(guide.cost_to_go().cost_to_go(kHere), 8.0, 1e-3);
-  guide.refresh(0.01, map, {0.0, 3.0}, kHere);
+  guide.refresh(0.01, on(map), {0.0, 3.0}, kHere);
   EXPECT_NEAR(guide.cost_to_go().cost_to_go(kHere), 5.0, 1e-3);
   EXPECT_FALSE(guide.goal_out_of_reach(kHere));
 }
@@ -28,7 +34,7 @@ TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLate
   for (const bool blocks : {true, false}) {
     GuidePolicy guide{AgentParameters{}, {true}, 0.0};
     OccupancyMap map = empty_map();
-    guide.refresh(0.0, map, kGoal, kHere);
+    guide.refresh(0.0, on(map), kGoal, kHere);
     if (blocks)
       map.add_box({-1.0, -1.0}, {1.0, 1.0});
     else
@@ -36,9 +42,9 @@ TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLate
     const Eigen::Vector2d behind{0.0, blocks ? 0.0 : 7.0};
     const double before = guide.cost_to_go().cost_to_go(behind);
     const double period = blocks ? GuidePolicy::kPeriod : GuidePolicy::kIdlePeriod;
-    guide.refresh(period - 0.05, map, kGoal, kHere);
+    guide.refresh(period - 0.05, on(map), kGoal, kHere);
     EXPECT_EQ(guide.cost_to_go().cost_to_go(behind), before) << blocks;
-    guide.refresh(period, map, kGoal, kHere);
+    guide.refresh(period, on(map), kGoal, kHere);
     EXPECT_NE(guide.cost_to_go().cost_to_go(behind), before) << blocks;
   }
 }
@@ -46,7 +52,7 @@ TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLate
 TEST(GuidePolicy, LeadsAsNearToAWalledInGoalAsAWayDoesWhereTheMethodWantsThat) {
   const OccupancyMap map = map_of(kRing);
   GuidePolicy guide{AgentParameters{}, {true}, 0.0};
-  guide.refresh(0.0, map, kGoal, kHere);
+  guide.refresh(0.0, on(map), kGoal, kHere);
   EXPECT_TRUE(guide.cut_off());
   EXPECT_TRUE(guide.goal_out_of_reach(kHere));
   const Eigen::Vector2d end = guide.cost_to_go().goal_used();
@@ -57,7 +63,7 @@ TEST(GuidePolicy, LeadsAsNearToAWalledInGoalAsAWayDoesWhereTheMethodWantsThat) {
 
 TEST(GuidePolicy, LeavesAWalledInGoalToAMethodThatStands) {
   GuidePolicy guide{AgentParameters{}, {false}, 0.0};
-  guide.refresh(0.0, map_of(kRing), kGoal, kHere);
+  guide.refresh(0.0, on(map_of(kRing)), kGoal, kHere);
   EXPECT_FALSE(guide.cut_off());
   EXPECT_EQ(guide.cost_to_go().outcome(), CostToGoOutcome::unreachable);
   EXPECT_TRUE(guide.goal_out_of_reach(kHere));
@@ -65,7 +71,7 @@ TEST(GuidePolicy, LeavesAWalledInGoalToAMethodThatStands) {
 
 TEST(GuidePolicy, AGoalOnBlockedGroundIsOutOfReachOnlyForARobotThatIsAsNearAsItGets) {
   GuidePolicy guide{AgentParameters{}, {true}, 0.0};
-  guide.refresh(0.0, map_of({{{3.0, -1.0}, {5.0, 1.0}}}), {3.2, 0.0}, kHere);
+  guide.refresh(0.0, on(map_of({{{3.0, -1.0}, {5.0, 1.0}}})), {3.2, 0.0}, kHere);
   ASSERT_EQ(guide.cost_to_go().outcome(), CostToGoOutcome::goal_moved);
   EXPECT_FALSE(guide.goal_out_of_reach(kHere));
   EXPECT_TRUE(guide.goal_out_of_reach(guide.cost_to_go().goal_used()));
@@ -74,14 +80,14 @@ TEST(GuidePolicy, AGoalOnBlockedGroundIsOutOfReachOnlyForARobotThatIsAsNearAsItG
 TEST(GuidePolicy, SaysHowTheMapLetsTheRobotComeToItsGoal) {
   GuidePolicy guide{AgentParameters{}, {true}, 0.0};
   EXPECT_FALSE(guide.access(kGoal).has_value());
-  guide.refresh(0.0, empty_map(), kGoal, kHere);
+  guide.refresh(0.0, on(empty_map()), kGoal, kHere);
   EXPECT_EQ(guide.access(kGoal), GoalAccess::open);
   EXPECT_FALSE(guide.access({0.0, 0.0}).has_value());  // it leads elsewhere
-  guide.refresh(10.0, map_of({{{3.0, -1.0}, {5.0, 1.0}}}), {3.2, 0.0}, kHere);
+  guide.refresh(10.0, on(map_of({{{3.0, -1.0}, {5.0, 1.0}}})), {3.2, 0.0}, kHere);
   EXPECT_EQ(guide.access({3.2, 0.0}), GoalAccess::blocked);
   for (const bool approaches : {true, false}) {
     GuidePolicy of_method{AgentParameters{}, {approaches}, 0.0};
-    of_method.refresh(0.0, map_of(kRing), kGoal, kHere);
+    of_method.refresh(0.0, on(map_of(kRing)), kGoal, kHere);
     EXPECT_EQ(of_method.access(kGoal), GoalAccess::cut_off) << approaches;
   }
 }
@@ -90,12 +96,12 @@ TEST(GuidePolicy, TakesAnotherClearanceAtOnce) {
   AgentParameters parameters;
   GuidePolicy guide{parameters, {true}, 0.0};
   const OccupancyMap map = map_of({{{-0.5, 0.7}, {0.5, 10.0}}, {{-0.5, -10.0}, {0.5, -0.7}}});
-  guide.refresh(0.0, map, kGoal, kHere);  // a gap of 1.4 m
+  guide.refresh(0.0, on(map), kGoal, kHere);  // a gap of 1.4 m
   EXPECT_EQ(guide.access(kGoal), GoalAccess::open);
   parameters.guide.clearance = 0.5;
   guide.reconfigure(parameters, {true});
   EXPECT_FALSE(guide.access(kGoal).has_value());
-  guide.refresh(0.01, map, kGoal, kHere);
+  guide.refresh(0.01, on(map), kGoal, kHere);
   EXPECT_EQ(guide.access(kGoal), GoalAccess::cut_off);
 }
 

@@ -104,7 +104,7 @@ void RobotAgent::Implementation::brake(double now, const StateEstimate* held_at)
 
 void RobotAgent::Implementation::make_plan(double now, const StateEstimate& state,
                                            const std::optional<Hold>& hold) {
-  guide.refresh(now, beliefs.map(), *goal, commitment.trajectory().position(now));
+  guide.refresh(now, beliefs.snapshot(now), *goal, commitment.trajectory().position(now));
   PlanRequest request;
   request.time = now;
   request.goal_world = *goal;

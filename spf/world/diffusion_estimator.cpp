@@ -60,7 +60,7 @@ void DiffusionEstimator::keep(const Sample& sample) {
 
 void DiffusionEstimator::restart() {
   count_ = 0;
-  has_velocity_step_ = false;
+  velocity_step_.reset();
 }
 
 void DiffusionEstimator::forget(double dt) {
@@ -108,10 +108,11 @@ void DiffusionEstimator::learn_from_increment(const Sample& last, const Sample& 
     increment_weight_ += dt;
     increment_time_ += dt;
     velocity_square_ += part * square;
-    if (has_velocity_step_) velocity_lagged_ += part * 0.5 * step.dot(velocity_step_);
+    if (velocity_step_) velocity_lagged_ += part * 0.5 * step.dot(*velocity_step_);
     velocity_step_ = step;
+  } else {
+    velocity_step_.reset();
   }
-  has_velocity_step_ = part > 0.0;
 
   const Eigen::Vector2d left = now.position - last.position - 0.5 * dt * (now.velocity + last.velocity);
   const double noise = last.position_sigma * last.position_sigma + now.position_sigma * now.position_sigma +
@@ -175,7 +176,8 @@ void DiffusionEstimator::solve() {
     constexpr double kLeast = 0.25;  // [s]
     prior = std::max(prior * std::exp(-increment_time_ / prior), std::min(prior, kLeast));
     const double total = prior + increment_weight_;
-    const double square = (prior * prior_.velocity * parameters_.prior_velocity_diffusion + velocity_square_) / total;
+    const double square =
+        (prior * prior_.velocity * parameters_.prior_velocity_diffusion + velocity_square_) / total;
     const double lagged = velocity_lagged_ / total;
     // Independent increments have a lagged mean of 0 and pure noise one of -1/2: in between it is noise only
     // when the cancelling is clear (3 standard deviations for 100 samples).
@@ -183,9 +185,8 @@ void DiffusionEstimator::solve() {
     const bool noisy = lagged < kClear * square;
     velocity_noise_ = noisy ? -lagged * mean_interval_ : 0.0;
     velocity_factor = (noisy ? square + 2.0 * lagged : square) / parameters_.prior_velocity_diffusion;
-    position_factor =
-        (prior * prior_.position + position_square_ / parameters_.prior_position_diffusion) /
-        (prior + position_weight_);
+    position_factor = (prior * prior_.position + position_square_ / parameters_.prior_position_diffusion) /
+                      (prior + position_weight_);
   } else {
     const Eigen::Matrix2d normal = normal_ + prior * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d right = right_ + prior * Eigen::Vector2d{prior_.position, prior_.velocity};

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <optional>
 
 #include "spf/math/parameters.hpp"
 
@@ -67,8 +68,7 @@ class DiffusionPopulation {
 /// Single outliers (a bounce off a wall) are clipped or left out, so that they do not raise the diffusion.
 class DiffusionEstimator {
  public:
-  explicit DiffusionEstimator(const DiffusionParameters& parameters = {},
-                              const DiffusionFactors& prior = {});
+  explicit DiffusionEstimator(const DiffusionParameters& parameters = {}, const DiffusionFactors& prior = {});
 
   void update(double time, const Eigen::Vector2d& position, double position_sigma,
               const Eigen::Vector2d& velocity);
@@ -112,9 +112,8 @@ class DiffusionEstimator {
   double velocity_lagged_ = 0.0;  // of dv . dv_before / (2 dt)
   double position_weight_ = 0.0;
   double position_square_ = 0.0;
-  Eigen::Vector2d velocity_step_ = Eigen::Vector2d::Zero();  // [m/s] the previous increment
-  bool has_velocity_step_ = false;
-  bool velocity_outlier_ = false;  // the previous sample was one
+  std::optional<Eigen::Vector2d> velocity_step_;  // [m/s] the previous increment
+  bool velocity_outlier_ = false;                 // the previous sample was one
   bool position_outlier_ = false;
   double mean_interval_ = 0.0;  // [s]
   Eigen::Matrix2d normal_ =

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kCusumLimit = 3.0;       // [1] sigmas; a larger cusum means a new motion (a bounce)
 constexpr double kCusumForgetting = 0.7;  // [1] from one innovation to the next: a cusum shows within three
-constexpr double kMoving = 0.3;           // [1] of initial_speed: what stands tells nothing of how others move
-constexpr double kOneEvent = 2.0;         // [s] changes closer together than this are no single event
+constexpr double kMoving = 0.3;    // [1] of initial_speed: what stands tells nothing of how others move
+constexpr double kOneEvent = 2.0;  // [s] changes closer together than this are no single event
 
 bool well_formed(const Detection& detection) {
   const bool numbers = believable(detection.position_world) && believable(detection.radius) &&
@@ -101,6 +101,8 @@ void ObstacleTracker::enter(const Detection& detection, double time) {
 void ObstacleTracker::begin_track(std::size_t slot, const Detection& detection, double time) {
   Memory memory;
   memory.last_seen = time;
+  memory.still_since = time;
+  memory.place = detection.position_world;
   memory.diffusion = DiffusionEstimator{parameters_.diffusion, population_.prior()};
   const double sigma = std::max(detection.position_sigma, parameters_.least_sigma);
   ObstacleTrack track;
@@ -148,6 +150,8 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
     // A single change is a bounce; repeated ones are process noise, which is to be learnt.
     if (time - memory.last_change > kOneEvent) memory.diffusion.restart();
     memory.last_change = time;
+    memory.still_since = time;
+    memory.place = detection.position_world;
     memory.cusum.setZero();
     // An obstacle that turned round has changed its velocity by up to twice its speed.
     const double speed = std::max(parameters_.initial_speed, 2.0 * track.state.velocity_world.norm());
@@ -162,6 +166,7 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
     correct_velocity(track, *detection.velocity_world - track.state.velocity_world, velocity_noise);
   }
   track.state.radius = detection.radius;
+  watch_standing(track, memory, detection, time);
 
   // 4. learn
   if (detection.velocity_world) {
@@ -174,6 +179,18 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   track.velocity_diffusion = memory.diffusion.velocity_diffusion();
   if (track.state.velocity_world.norm() > kMoving * parameters_.initial_speed)
     population_.learn(dt, track.velocity_diffusion, track.position_diffusion);
+}
+
+void ObstacleTracker::watch_standing(ObstacleTrack& track, Memory& memory, const Detection& detection,
+                                     double time) const {
+  const double moved = (track.state.position_world - memory.place).norm();
+  const double speed = track.state.velocity_world.norm();
+  const bool starts = speed > std::max(parameters_.still_speed, 3.0 * std::sqrt(track.velocity_variance));
+  if (starts || moved > std::max(parameters_.still_distance, 3.0 * detection.position_sigma)) {
+    memory.place = track.state.position_world;
+    memory.still_since = time;
+  }
+  track.stood = time - memory.still_since;
 }
 
 void ObstacleTracker::drop_unseen(double time) {

@@ -18,6 +18,8 @@ struct ObstacleTrackerParameters {
   double timeout = 2.0;        ///< [s] a track unseen for longer is dropped
   double initial_speed = 1.0;  ///< [m/s] standard deviation per axis of the velocity after a single detection
   double least_sigma = 1e-4;   ///< [m] positions are never taken as more exact
+  double still_distance = 0.15;  ///< [m] what stays this near to a place stands there ...
+  double still_speed = 0.2;      ///< [m/s] ... unless it is faster, as far as its velocity is known
   DiffusionParameters diffusion;
 
   template <class Self, class Visitor>
@@ -31,6 +33,8 @@ struct ObstacleTrackerParameters {
   static void visit_constants(Self& self, Visitor&& visit) {
     visit(self.initial_speed, Scale::speed, Range{0.01, 50.0});
     visit(self.least_sigma, Scale::size, Range{1e-6, 1.0});
+    visit(self.still_distance, Scale::size, Range{1e-3, 10.0});
+    visit(self.still_speed, Scale::speed, Range{1e-3, 10.0});
   }
 };
 
@@ -65,8 +69,10 @@ class ObstacleTracker {
  private:
   /// The private part of a track; memories_[k] belongs to tracks_[k].
   struct Memory {
-    double last_seen = 0.0;     // [s]
-    double last_change = -1e9;  // [s]
+    double last_seen = 0.0;                           // [s]
+    double last_change = -1e9;                        // [s]
+    double still_since = 0.0;                         // [s]
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // [m] of the track then
     Eigen::Vector2d cusum =
         Eigen::Vector2d::Zero();  // cusum: discounted sum of innovations, each over its standard deviation
     DiffusionEstimator diffusion;
@@ -75,6 +81,7 @@ class ObstacleTracker {
   void enter(const Detection& detection, double time);
   void begin_track(std::size_t slot, const Detection& detection, double time);
   void correct(ObstacleTrack& track, Memory& memory, const Detection& detection, double time);
+  void watch_standing(ObstacleTrack& track, Memory& memory, const Detection& detection, double time) const;
   void drop_unseen(double time);
   template <class Over>
   std::size_t drop(const Over& over);

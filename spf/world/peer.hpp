@@ -16,6 +16,7 @@ struct Peer {
   double received_time = 0.0;   ///< [s]
   bool expired = false;  ///< the message is too old: the peer is a growing disc at its last known position
   double growth = 0.0;   ///< [m] added to the radius of an expired peer
+  double stood = 0.0;    ///< [s] for so long it has stood in one place, stopped or arrived
   Shared<Trajectory> trajectory{Trajectory{}};
 
   [[nodiscard]] Rank rank() const { return {priority, robot_id}; }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kOldestMessage = 10.0;  // [s] messages sent longer ago are malformed
 constexpr double kLargestRadius = 10.0;  // [m] so are those of larger robots
+constexpr double kStill = 0.3;           // [1] of a peer's radius: if it moves less, it stands
 
 }  // namespace
 
@@ -24,7 +25,8 @@ MessageVerdict PeerTable::receive(const HeardMessage& heard, double now) {
   ++counts_[static_cast<std::size_t>(verdict)];
   if (verdict != MessageVerdict::accepted) return verdict;
 
-  Entry& entry = entries_[message.robot_id];
+  const auto [slot, is_new] = entries_.try_emplace(message.robot_id);
+  Entry& entry = slot->second;
   entry.sequence = message.sequence;
   entry.expiry_time = std::min(message.expiry_time, now + parameters_.silence);
   Peer& peer = entry.peer;
@@ -37,7 +39,19 @@ MessageVerdict PeerTable::receive(const HeardMessage& heard, double now) {
   peer.expired = false;
   peer.growth = 0.0;
   peer.trajectory = heard.trajectory();
+  watch_standing(entry, is_new, now);
   return verdict;
+}
+
+void PeerTable::watch_standing(Entry& entry, bool is_new, double now) {
+  Peer& peer = entry.peer;
+  const Eigen::Vector2d here = peer.position(now);
+  const bool stands = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
+  if (is_new || !stands || now < entry.still_since || (here - entry.place).norm() > kStill * peer.radius) {
+    entry.place = here;
+    entry.still_since = now;
+  }
+  peer.stood = now - entry.still_since;
 }
 
 MessageVerdict PeerTable::judge(const HeardMessage& heard, double now) const {

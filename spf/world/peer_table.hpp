@@ -84,11 +84,14 @@ class PeerTable {
     Peer peer;
     std::uint32_t sequence = 0;
     double expiry_time = 0.0;  // [s] as the message said, at most `silence` after its arrival
+    double still_since = 0.0;  // [s]
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // [m] of the peer then
   };
 
   [[nodiscard]] MessageVerdict judge(const HeardMessage& heard, double now) const;
   [[nodiscard]] bool well_formed(const TrajectoryMessage& message, double now) const;
   [[nodiscard]] bool make_room(double now);
+  static void watch_standing(Entry& entry, bool is_new, double now);
 
   int own_id_;
   PeerTableParameters parameters_;

@@ -21,7 +21,10 @@ class Restarts(GoalsTest):
         self.goes_on_after("planner_node", "tracker_node", "perception_node")
 
     def test_a_goal_of_the_topic_survives_and_an_older_latched_one_does_not_come_back(self):
-        self.robot.send_goal(self.robot.x + 0.5, 0.0)  # latched
+        x = self.robot.x + 0.5
+        self.robot.send_goal(x, 0.0)  # latched
+        # The goal before it has been reached, too, so the outcome alone does not tell.
+        self.assertTrue(wait_until(lambda: self.distance(x, 0.0) < 0.08, 10.0), self.robot.status.reason)
         self.assertTrue(wait_until(lambda: self.robot.status.goal_outcome == "reached", 10.0), self.robot.status.reason)
         self.goes_on_after("planner_node")
         self.robot.kill("planner_node")

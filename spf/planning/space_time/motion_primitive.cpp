@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "spf/trajectory/constant_acceleration.hpp"
 
 namespace spf {
 namespace {
+
+constexpr double kDearest = 4.0;  // [1] cost of a metre of the narrowest ground, see cost_to_go_passage.cpp
 
 /// Moves a velocity towards a target by at most `change`.
 Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d& target, double change) {
@@ -19,9 +22,15 @@ Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d&
 }  // namespace
 
 Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
-                              const RollOutSettings& settings, double pace) {
-  const Eigen::Vector2d direction = guide.direction(position_world);
-  const double distance = guide.cost_to_go(position_world);
+                              const RollOutSettings& settings, double pace, double speed_now) {
+  std::optional<Eigen::Vector2d> on_way;
+  if (settings.passage != nullptr) on_way = settings.passage->direction(position_world, speed_now);
+  const Eigen::Vector2d direction = on_way ? *on_way : guide.direction(position_world);
+  const double cost = guide.cost_to_go(position_world);
+  // Narrow ground costs up to four times its length: near the goal the straight distance tells better.
+  const double straight = (guide.goal_used() - position_world).norm();
+  const double distance =
+      cost < kDearest * straight + settings.step * settings.max_speed ? std::min(cost, straight) : cost;
   // The velocity v at the end of a step, from step * v + v^2 / (2 acceleration) = distance: the step and
   // stopping from v end at the goal. It does not pass the goal within the step either.
   const double acceleration = settings.max_acceleration;
@@ -29,8 +38,7 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostT
       acceleration *
       (std::sqrt(settings.step * settings.step + 2.0 * distance / acceleration) - settings.step);
   const double speed = std::min({pace * settings.max_speed, stoppable, distance / (2.0 * settings.step)});
-  return direction *
-         (settings.passage != nullptr ? std::min(speed, settings.passage->limit(distance)) : speed);
+  return direction * (settings.passage != nullptr ? std::min(speed, settings.passage->limit(cost)) : speed);
 }
 
 void roll_out(const MotionPrimitive& primitive, const FlatState& head, const CostToGo& guide,
@@ -57,7 +65,7 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Cos
         case MotionPrimitive::Then::goal:
           if (entering) follow = primitive.pace < 1.0 || narrow || guide.cost_to_go(position) < near;
           if (entering || follow || k % 5 == 0)
-            target = goal_velocity(position, guide, settings, primitive.pace);
+            target = goal_velocity(position, guide, settings, primitive.pace, velocity.norm());
           break;
         case MotionPrimitive::Then::hold:
           break;

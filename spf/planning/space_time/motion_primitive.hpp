@@ -40,9 +40,11 @@ struct RollOutSettings {
 };
 
 /// Velocity towards the goal from a position: along the guide at max_speed, slower where the robot has to
-/// stop at the goal. `pace` [1] of max_speed.
+/// stop at the goal. `pace` [1] of max_speed; `speed_now` [m/s] tells
+/// how early a turn has to begin.
 [[nodiscard]] Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
-                                            const RollOutSettings& settings, double pace = 1.0);
+                                            const RollOutSettings& settings, double pace = 1.0,
+                                            double speed_now = 0.0);
 
 /// Rolls a primitive out from a head state (its acceleration is not continued).
 void roll_out(const MotionPrimitive& primitive, const FlatState& head, const CostToGo& guide,

@@ -9,11 +9,19 @@
 namespace spf {
 namespace {
 
-constexpr double kStillPace = 0.15;  // [1] of max_speed: below, slower is not more exact
-constexpr double kCreep = 0.08;      // [1] of max_speed, in the narrowest gap
+constexpr double kCreep = 0.08;  // [1] of max_speed, in the narrowest gap
 constexpr double kOffMiddle =
-    0.7;                          // [1] of the room beside the robot: the rest is for not being in the middle
-constexpr double kBraking = 0.5;  // [1] of max_acceleration
+    0.8;  // [1] of the room beside the robot: the rest is for not being in the middle
+constexpr double kNearlyAsFar = 0.9;   // [1] of the most standard deviations from a surface
+constexpr double kMostParts = 1e6;     // of a leg
+constexpr double kLookAhead = 0.5;     // [1] of the radius
+constexpr std::size_t kTurnMarks = 3;  // looks before and behind a turn
+constexpr double kStraight = 0.1;      // [rad]
+constexpr double kCut = 0.5;           // [1] of the room
+constexpr double kTurning = 0.7;       // [1] of max_acceleration
+constexpr double kTurnShare =
+    0.3;  // [rad] half of a common turn, which takes speed^2 / acceleration times that
+constexpr double kBraking = 0.5;        // [1] of max_acceleration
 constexpr double kSpacing = 1.0 / 3.0;  // [1] of the radius, between looks
 
 }  // namespace
@@ -25,46 +33,151 @@ double way_sigma(double static_sigma, double position_sigma, double speed, doubl
 PassageSpeed::PassageSpeed(const SpaceTimeParameters& parameters, const RobotParameters& robot)
     : parameters_{parameters}, robot_{robot} {}
 
-double PassageSpeed::speed_at(const OccupancyMap& map, const Eigen::Vector2d& position_world,
-                              double position_sigma) const {
+PassageSpeed::Room PassageSpeed::room_at(const PlanRequest& request,
+                                         const Eigen::Vector2d& position_world) const {
+  const OccupancyMap& map = *request.world.map;
   const double wanted = robot_.radius + map.margin(parameters_.static_margin);
-  const double enough =
-      wanted + kSurfaceSigmas / kOffMiddle *
-                   way_sigma(parameters_.static_sigma, position_sigma, robot_.max_speed, robot_.max_speed);
-  if (map.distance(position_world) >= enough) return robot_.max_speed;
-  const double room = kOffMiddle * (map.exact_distance(position_world) - wanted);
-  const double sigma = std::max(room, 0.0) / kSurfaceSigmas;
-  const double own = std::sqrt(std::max(sigma * sigma - position_sigma * position_sigma, 0.0));
+  Room room;
+  room.at_surface = map.distance(position_world) - wanted;
+  if (room.at_surface < robot_.radius) room.at_surface = map.exact_distance(position_world) - wanted;
+  for (const StandingDisc& disc : request.guide->standing()) {
+    const double size = (disc.position_world - position_world).norm() - disc.radius - robot_.radius -
+                        parameters_.static_margin;
+    if (size >= room.at_standing) continue;
+    room.at_standing = size;
+    room.beside = &disc;
+  }
+  return room;
+}
+
+/// Largest speed on a straight way with this room [m] on its narrower side.
+double PassageSpeed::straight_speed(const PlanRequest& request, double room) const {
+  const double inner = kOffMiddle * std::max(room, 0.0);
+  const auto sigma_at = [&](double speed) {
+    return way_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
+  };
+  if (inner >= kSurfaceSigmas * sigma_at(robot_.max_speed)) return robot_.max_speed;
+  // No slower than helps: what is not known of the own position does not get better by it.
+  const double sigmas = std::min(kSurfaceSigmas, kNearlyAsFar * inner / sigma_at(0.0));
+  const double sigma = sigmas > 0.0 ? inner / sigmas : 0.0;
+  const double own =
+      std::sqrt(std::max(sigma * sigma - request.position_sigma * request.position_sigma, 0.0));
   const double pace = own / parameters_.static_sigma - kStillPace;
   return robot_.max_speed * std::clamp(pace, kCreep, 1.0);
 }
 
-void PassageSpeed::prepare(const PlanRequest& request) {
-  marks_.clear();
-  const CostToGo& guide = *request.guide;
-  guide.shortest_path(request.head.position_world, way_);
+/// Calls look(position, step) along the way until it returns false, as far as the robot can come within the
+/// horizon and then stop.
+template <class Look>
+void PassageSpeed::look_along(const Look& look) const {
   const double spacing = kSpacing * robot_.radius;
   const double reach = robot_.max_speed * (parameters_.horizon + robot_.max_speed / robot_.max_acceleration);
   double ahead = 0.0;  // of the last look
-  bool narrow = false;
   for (std::size_t i = 1; i < way_.size() && ahead < reach; ++i) {
     const Eigen::Vector2d leg = way_[i] - way_[i - 1];
-    const int parts = std::max(1, static_cast<int>(std::ceil(leg.norm() / spacing)));
+    const int parts = std::max(1, static_cast<int>(std::ceil(std::min(leg.norm() / spacing, kMostParts))));
     for (int part = 1; part <= parts && ahead < reach; ++part) {
-      const Eigen::Vector2d here = way_[i - 1] + leg * (static_cast<double>(part) / parts);
-      const double speed = speed_at(*request.world.map, here, request.position_sigma);
-      narrow = narrow || speed < robot_.max_speed;
-      const double cost = guide.cost_to_go(here);
-      marks_.push_back({marks_.empty() ? cost : std::min(cost, marks_.back().cost), speed});
+      if (!look(Eigen::Vector2d{way_[i - 1] + leg * (static_cast<double>(part) / parts)})) return;
       ahead += leg.norm() / parts;
     }
   }
-  if (!narrow) marks_.clear();
+}
+
+void PassageSpeed::prepare(const PlanRequest& request) {
+  marks_.clear();
+  blocker_ = nullptr;
+  stop_cost_ = exit_cost_ = 0.0;
+  const CostToGo& guide = *request.guide;
+  guide.shortest_path(request.head.position_world, way_);
+  bool narrow = false;
+  look_along([&](const Eigen::Vector2d& here) {
+    narrow = straight_speed(request, room_at(request, here).least()) < robot_.max_speed;
+    return !narrow;
+  });
+  if (!narrow) return;
+  look_along([&](const Eigen::Vector2d& here) {
+    const Room room = room_at(request, here);
+    const double cost = guide.cost_to_go(here);
+    marks_.push_back({here, marks_.empty() ? cost : std::min(cost, marks_.back().cost),
+                      straight_speed(request, room.least()), room});
+    return true;
+  });
+  slow_down_in_turns();
+  stop_before_what_stands();
   for (std::size_t k = marks_.size(); k-- > 1;) {
+    const double step = (marks_[k].position_world - marks_[k - 1].position_world).norm();
     const double braked =
-        std::sqrt(marks_[k].speed * marks_[k].speed + 2.0 * kBraking * robot_.max_acceleration * spacing);
+        std::sqrt(marks_[k].speed * marks_[k].speed + 2.0 * kBraking * robot_.max_acceleration * step);
     marks_[k - 1].speed = std::min(marks_[k - 1].speed, braked);
   }
+}
+
+/// A turn at a speed has a radius, and cuts its corner by no more than a share of the room there.
+void PassageSpeed::slow_down_in_turns() {
+  const std::size_t window = kTurnMarks;
+  for (std::size_t k = window; k + window < marks_.size(); ++k) {
+    const Eigen::Vector2d before = marks_[k].position_world - marks_[k - window].position_world;
+    const Eigen::Vector2d after = marks_[k + window].position_world - marks_[k].position_world;
+    const double angle =
+        std::fabs(std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after)));
+    if (angle < kStraight) continue;
+    const double by_curvature = 0.5 * (before.norm() + after.norm()) / angle;
+    const double cut = kCut * std::max(marks_[k].room.least(), 0.0);
+    const double by_cut = cut / (1.0 / std::cos(0.5 * std::min(angle, 3.0)) - 1.0);
+    const double speed = std::sqrt(kTurning * robot_.max_acceleration * std::max(by_curvature, by_cut));
+    marks_[k].speed = std::min(marks_[k].speed, speed);
+  }
+}
+
+/// Where the way leads through what stands, and from where it comes near to it on.
+void PassageSpeed::stop_before_what_stands() {
+  auto inside = std::find_if(marks_.begin(), marks_.end(), [this](const Mark& mark) {
+    return mark.room.at_standing < -parameters_.static_margin;
+  });
+  if (inside == marks_.end()) return;
+  blocker_ = inside->room.beside;
+  const auto exit =
+      std::find_if(inside, marks_.end(), [](const Mark& mark) { return mark.room.at_standing >= 0.0; });
+  if (exit != marks_.end()) exit_cost_ = exit->cost;
+  while (inside != marks_.begin() && std::prev(inside)->room.at_standing < parameters_.margin) --inside;
+  stop_cost_ = inside->cost;
+  for (auto mark = inside; mark != marks_.end(); ++mark) mark->speed = 0.0;
+}
+
+std::optional<Eigen::Vector2d> PassageSpeed::direction(const Eigen::Vector2d& position_world,
+                                                       double speed) const {
+  if (!limits()) return std::nullopt;
+  double nearest = robot_.radius;
+  std::size_t leg = 0;
+  double along = 0.0;  // [m] from the leg's start to the nearest place
+  for (std::size_t i = 1; i < way_.size(); ++i) {
+    const Eigen::Vector2d offset = position_world - way_[i - 1];
+    const Eigen::Vector2d step = way_[i] - way_[i - 1];
+    const double length = step.norm();
+    const double at = length > 0.0 ? std::clamp(offset.dot(step) / length, 0.0, length) : 0.0;
+    const double gap = (offset - (length > 0.0 ? at / length : 0.0) * step).norm();
+    if (gap >= nearest) continue;
+    nearest = gap;
+    leg = i;
+    along = at;
+  }
+  if (leg == 0) return std::nullopt;
+  double left =
+      along + std::max(kLookAhead * robot_.radius, kTurnShare * speed * speed / robot_.max_acceleration);
+  Eigen::Vector2d target = way_.back();
+  for (std::size_t i = leg; i < way_.size(); ++i) {
+    const Eigen::Vector2d step = way_[i] - way_[i - 1];
+    const double length = step.norm();
+    if (left < length) {
+      target = way_[i - 1] + left / length * step;
+      break;
+    }
+    left -= length;
+  }
+  const Eigen::Vector2d onwards = target - position_world;
+  const double length = onwards.norm();
+  if (!(length > 1e-6)) return std::nullopt;
+  return Eigen::Vector2d{onwards / length};
 }
 
 double PassageSpeed::limit(double cost_to_go) const {

@@ -1,18 +1,24 @@
 // Speed that follows clearance: a slow robot keeps its way more exactly, so where the guide's way is narrow
-// the robot goes as slowly as the gap needs, and brakes for it in time. Frame: world.
+// the robot goes as slowly as the gap needs, and brakes for it in time. Where the way leads through something
+// that stands it stops in front of it. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "spf/planning/planner.hpp"
 #include "spf/planning/space_time/space_time_parameters.hpp"
+#include "spf/world/standing.hpp"
 
 namespace spf {
 
 /// How exactly the robot keeps its way [m], one standard deviation, at a speed [m/s].
 [[nodiscard]] double way_sigma(double static_sigma, double position_sigma, double speed, double max_speed);
+inline constexpr double kStillPace = 0.15;     ///< [1] of max_speed: below, slower is not more exact
 inline constexpr double kSurfaceSigmas = 4.0;  ///< [1] as far from a surface there is no risk
 
 class PassageSpeed {
@@ -27,19 +33,48 @@ class PassageSpeed {
   [[nodiscard]] bool limits() const { return !marks_.empty(); }
   /// Largest speed [m/s] where `cost_to_go` [m] is left; infinite where nothing limits it.
   [[nodiscard]] double limit(double cost_to_go) const;
+  /// Unit vector along the way from a position beside it, at a speed [m/s]: towards a place ahead, so that
+  /// turns begin in time and slow robots keep exactly to the corners, round which the guide's gradient leads
+  /// a little too early. None far from the way, and where nothing is narrow.
+  [[nodiscard]] std::optional<Eigen::Vector2d> direction(const Eigen::Vector2d& position_world,
+                                                         double speed) const;
+  /// What stands in the way, of the guide; null: nothing.
+  [[nodiscard]] const StandingDisc* blocked_by() const { return blocker_; }
+  /// What is left to go [m] for who wants to get on: to come nearer to something that stands in the way than
+  /// where the robot stops is no progress.
+  [[nodiscard]] double left_to_go(double cost_to_go) const {
+    return cost_to_go < stop_cost_ && cost_to_go > exit_cost_ ? stop_cost_ : cost_to_go;
+  }
 
  private:
+  /// Beyond the margin to the nearest surface, and to the nearest of what stands [m].
+  struct Room {
+    double at_surface = 0.0;
+    double at_standing = std::numeric_limits<double>::infinity();
+    const StandingDisc* beside = nullptr;
+
+    [[nodiscard]] double least() const { return std::min(at_surface, at_standing); }
+  };
   struct Mark {
+    Eigen::Vector2d position_world;
     double cost;   // [m]
     double speed;  // [m/s]
+    Room room;
   };
-  [[nodiscard]] double speed_at(const OccupancyMap& map, const Eigen::Vector2d& position_world,
-                                double position_sigma) const;
+  [[nodiscard]] Room room_at(const PlanRequest& request, const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] double straight_speed(const PlanRequest& request, double room) const;
+  template <class Look>
+  void look_along(const Look& look) const;
+  void slow_down_in_turns();
+  void stop_before_what_stands();
 
   SpaceTimeParameters parameters_;
   RobotParameters robot_;
   std::vector<Eigen::Vector2d> way_;
-  std::vector<Mark> marks_;  // by falling cost, equally far apart along the way
+  std::vector<Mark> marks_;  // by falling cost, at most a third of the radius apart
+  const StandingDisc* blocker_ = nullptr;
+  double stop_cost_ = 0.0;  // [m] where the robot stops before something that stands; 0: nothing does
+  double exit_cost_ = 0.0;  // [m] behind it
 };
 
 }  // namespace spf

@@ -124,7 +124,7 @@ TEST(SpaceTimeCost, IsThePriceOfTheChanceThatTheRiskTells) {
     const int step = static_cast<int>(random.uniform(0.0, 31.0));
     double sum = 0.0;
     for (int e = 0; e < scene.risk.disc_count(); ++e)
-      sum += scene.risk.chance(scene.risk.disc(e), step, place);
+      sum += scene.risk.chance(scene.risk.disc(e), step, place, 0.0);
     const double integrand = node.ask(scene.cost, place, kStart + 0.1 * step).integrand;
     // The risk cuts tails off at 4 sigma (3e-5 each), the cost at 5.
     EXPECT_NEAR(integrand * scene.cost.exposure / scene.cost.price, sum, 5 * 3.2e-5);

@@ -41,7 +41,14 @@ constexpr std::array<double, 3> kPaces{0.5, 0.25,
 constexpr double kSlowFraction = 0.5;          // [1] of max_speed: the second speed of the sidesteps
 constexpr double kEarlyProgress =
     0.3;  // [1] weight of the way to go at instants before the horizon: no putting off
+constexpr double kBlockedStand = 4.0;  // [1] of stand_bonus, before something that stands in the way
 constexpr int kProgressSamples = 3;
+// A gap is no wider later on. A robot that has stood before one takes more of its risk, little by little.
+constexpr double kPatience = 2.0;       // [s]
+constexpr double kLeastPrice = 0.02;    // [1] of the price of the risk of surfaces
+constexpr double kNoRoomSigmas = 1.5;   // [1] nearer to a surface than that, the price never falls
+constexpr double kPauseTime = 0.5;      // [s] without a call: the robot did not wait of its own accord
+constexpr double kCreepSpeed = 0.15;    // [1] of max_speed
 constexpr double kHasteCost = 1e-3;     // [1] of collision_cost, at max_speed where none at all is safe
 constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter motions are not smoothed
 
@@ -83,7 +90,8 @@ double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Ve
   });
   // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
   const double depth = std::max(0.0, -least_clearance) / wanted_clearance;
-  return least_sigmas >= kSurfaceSigmas ? 0.0 : normal_tail(least_sigmas) + depth;
+  if (least_sigmas >= kSurfaceSigmas) return 0.0;
+  return (least_sigmas > kNoRoomSigmas ? surface_price_ : 1.0) * normal_tail(least_sigmas) + depth;
 }
 
 SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
@@ -95,14 +103,15 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   // Travel time: the horizon, the remaining path at full speed, and half the time for the remaining change of
   // velocity.
   const Eigen::Vector2d wanted = goal_velocity(tail, guide, settings_);
-  score.time = settings_.step * roll_out.steps + guide.cost_to_go(tail) / settings_.max_speed +
+  score.time = settings_.step * roll_out.steps +
+               passage_.left_to_go(guide.cost_to_go(tail)) / settings_.max_speed +
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
   // Early progress is better than the same progress planned for later, which could be postponed again and
   // again: a part of the remaining path counts at some instants in between, too.
   double to_go = 0.0;
   for (int i = 1; i <= kProgressSamples; ++i) {
     const auto at = static_cast<std::size_t>(i * roll_out.steps / (kProgressSamples + 1));
-    to_go += guide.cost_to_go(roll_out.position_world[at]);
+    to_go += passage_.left_to_go(guide.cost_to_go(roll_out.position_world[at]));
   }
   score.time += kEarlyProgress * to_go / (kProgressSamples * settings_.max_speed);
   // Faster than what may come from beyond its sight allows.
@@ -148,16 +157,23 @@ void SpaceTimePlanner::consider(const MotionPrimitive& primitive, const PlanRequ
 }
 
 /// A trajectory as a roll-out over the whole horizon: it is driven until `drive_end`, then its velocity is
-/// held instead of braking, so that plans of different age are compared over the same time.
-void SpaceTimePlanner::sample(const Trajectory& trajectory, double from, double drive_end) {
+/// held instead of braking, so that plans of different age are compared over the same time; or it brakes.
+void SpaceTimePlanner::sample(const Trajectory& trajectory, double from, double drive_end, bool brakes) {
   trial_.steps = settings_.steps;
   const FlatState last = trajectory.state(drive_end);
   for (int k = 0; k <= trial_.steps; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double time = from + k * settings_.step;
     const FlatState state = time < drive_end ? trajectory.state(time) : last;
-    trial_.position_world[at] = state.position_world + std::max(0.0, time - drive_end) * state.velocity_world;
-    trial_.velocity_world[at] = state.velocity_world;
+    double beyond = std::max(0.0, time - drive_end);
+    double kept = 1.0;  // of the velocity
+    if (brakes) {
+      const double stop = std::max(state.velocity_world.norm() / settings_.max_acceleration, 1e-9);
+      beyond = std::min(beyond, stop);
+      kept = 1.0 - beyond / stop;
+    }
+    trial_.position_world[at] = state.position_world + 0.5 * (1.0 + kept) * beyond * state.velocity_world;
+    trial_.velocity_world[at] = kept * state.velocity_world;
   }
 }
 
@@ -166,8 +182,18 @@ void SpaceTimePlanner::consider_previous(const PlanRequest& request, PlanResult&
   if (committed == nullptr || committed->empty() || committed->start_time() != plan_start_) return;
   if (request.time > plan_start_ + parameters_.renewal) return;
   if (drive_end_ - request.time < 0.3 * settings_.step * settings_.steps) return;
-  sample(*committed, request.time, drive_end_);
-  Score previous = score(trial_, request, std::numeric_limits<double>::infinity());
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  sample(*committed, request.time, drive_end_, false);
+  Score previous = score(trial_, request, kAll);
+  if (previous.risk > parameters_.cost_threshold) {
+    // It may end before a turn, where to go straight on is no choice.
+    sample(*committed, request.time, drive_end_, true);
+    const Score braking = score(trial_, request, kAll);
+    if (braking.total() < previous.total())
+      previous = braking;
+    else
+      sample(*committed, request.time, drive_end_, false);
+  }
   previous.time -= parameters_.keep_bonus;
   take_best(previous, keep_candidate(trial_, Candidate::Kind::previous, previous, request, result), true);
 }
@@ -198,11 +224,27 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
   }
   const Eigen::Vector2d still = Eigen::Vector2d::Zero();
   const bool slow = request.head.velocity_world.norm() < 0.3 * robot_.max_speed;
-  consider({still, 0.0, MotionPrimitive::Then::brake}, request, result, slow ? parameters_.stand_bonus : 0.0);
-  consider({still, parameters_.short_sidestep, MotionPrimitive::Then::goal}, request, result);
-  consider({still, parameters_.long_sidestep, MotionPrimitive::Then::goal}, request, result);
+  const double bonus = parameters_.stand_bonus * (passage_.blocked_by() != nullptr ? kBlockedStand : 1.0);
+  consider({still, 0.0, MotionPrimitive::Then::brake}, request, result, slow ? bonus : 0.0);
+  if (direct.worst >= 0) {  // to wait helps against what moves; a surface would be put off again and again
+    consider({still, parameters_.short_sidestep, MotionPrimitive::Then::goal}, request, result);
+    consider({still, parameters_.long_sidestep, MotionPrimitive::Then::goal}, request, result);
+  }
   for (const double pace : kPaces) consider({still, 0.0, MotionPrimitive::Then::goal, pace}, request, result);
   consider_sidesteps(request, result);
+}
+
+void SpaceTimePlanner::lose_patience(const PlanRequest& request) {
+  const bool asked_all_the_time = request.time - asked_time_ < kPauseTime && request.time >= asked_time_;
+  asked_time_ = request.time;
+  const bool on_its_way = goal_ == request.goal_world && asked_all_the_time &&
+                          passage_.blocked_by() == nullptr &&
+                          request.guide->cost_to_go(request.head.position_world) > 2.0 * robot_.radius;
+  if (!on_its_way || request.head.velocity_world.norm() > kCreepSpeed * robot_.max_speed)
+    waits_since_ = request.time;
+  goal_ = request.goal_world;
+  const double waited = (request.time - waits_since_) / kPatience;
+  surface_price_ = std::max(kLeastPrice, 1.0 / (1.0 + waited * waited));
 }
 
 void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
@@ -211,6 +253,7 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
     stand_instead(request, robot_, *refused, result);
     return;
   }
+  lose_patience(request);
   best_score_ = {};
   best_score_.time = std::numeric_limits<double>::infinity();
   best_is_previous_ = false;
@@ -230,6 +273,8 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   consider(direct, request, result);
   // 3. Else all primitives.
   if (direct_score.risk > parameters_.cost_threshold) consider_all(request, direct_score, result);
+  if (const StandingDisc* blocker = passage_.blocked_by())
+    (blocker->is_peer ? result.blocking_peer : result.blocking_track) = blocker->id;
   // 4. The best of them, smoothed, is the plan.
   finish(request, result);
 }
@@ -251,7 +296,7 @@ bool SpaceTimePlanner::smooth_best(const PlanRequest& request, PlanResult& resul
   const double braking = best_.velocity_world[static_cast<std::size_t>(best_.steps)].norm();
   const double drive_end = smooth_.end_time() - (braking > 1e-6 ? braking / settings_.max_acceleration : 0.0);
   if (drive_end - request.time < 0.5 * settings_.step * settings_.steps) return false;
-  sample(smooth_, request.time, drive_end);
+  sample(smooth_, request.time, drive_end, false);
   const double enough = best_score_.total() + parameters_.smoothing_tolerance;
   const Score smooth_score =
       score(trial_, request, request.keep_candidates ? std::numeric_limits<double>::infinity() : enough);

@@ -4,6 +4,8 @@
 // them.
 #pragma once
 
+#include <limits>
+
 #include "spf/planning/plan_judge.hpp"
 #include "spf/planning/sight_limit.hpp"
 #include "spf/planning/space_time/motion_primitive.hpp"
@@ -39,6 +41,7 @@ class SpaceTimePlanner final : public Planner {
                                       const PlanRequest& request) const;
   void consider(const MotionPrimitive& primitive, const PlanRequest& request, PlanResult& result,
                 double bonus = 0.0);
+  void lose_patience(const PlanRequest& request);
   void consider_previous(const PlanRequest& request, PlanResult& result);
   void consider_all(const PlanRequest& request, const Score& direct, PlanResult& result);
   void consider_sidesteps(const PlanRequest& request, PlanResult& result);
@@ -46,7 +49,7 @@ class SpaceTimePlanner final : public Planner {
   int keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,
                      const PlanRequest& request, PlanResult& result) const;
   void take_best(const Score& score, int candidate, bool is_previous);
-  void sample(const Trajectory& trajectory, double from, double drive_end);
+  void sample(const Trajectory& trajectory, double from, double drive_end, bool brakes);
   bool smooth_best(const PlanRequest& request, PlanResult& result);
   void finish(const PlanRequest& request, PlanResult& result);
 
@@ -56,6 +59,11 @@ class SpaceTimePlanner final : public Planner {
   SpaceTimeRisk risk_;
   SightLimit sight_;
   PassageSpeed passage_;
+  double waits_since_ =
+      std::numeric_limits<double>::infinity();  // [s] on its way to goal_, no faster than a creep
+  double asked_time_ = -std::numeric_limits<double>::infinity();  // [s] of the last plan
+  Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();                // [m]
+  double surface_price_ = 1.0;                                    // [1] of the risk of surfaces
   RollOut trial_;
   RollOut best_;
   Score best_score_;

@@ -25,14 +25,14 @@ class SpaceTimeRisk {
   struct PredictedDisc {
     int id = -1;
     bool is_peer = false;
-    bool stopped =
-        false;  ///< a stopped peer will still be there at the end: the risk of the end is not discounted
     double priority_weight = 1.0;                           ///< [1]
     double radius = 0.0;                                    ///< [m] both radii and the margin
     std::array<Eigen::Vector2d, kMaxSteps + 1> mean_world;  ///< [m]
     std::array<double, kMaxSteps + 1> sigma;                ///< [m]
     std::array<double, kMaxSteps + 1> weight;               ///< erf(R / (sigma sqrt 2)) * discount * weight
-    std::array<double, kMaxSteps + 1> reach;  ///< [m] beyond this distance the probability is negligible
+    /// Of something that stands, [m] added to the radius for a robot at full speed: a slow one may go nearer.
+    double speed_margin = 0.0;
+    double speed_sigma = 0.0;  ///< [m] likewise of sigma
   };
 
   SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed);
@@ -46,9 +46,9 @@ class SpaceTimeRisk {
   [[nodiscard]] int disc_count() const { return disc_count_; }
   [[nodiscard]] const PredictedDisc& disc(int index) const { return discs_[static_cast<std::size_t>(index)]; }
 
-  /// Discounted and weighted probability of contact at one step with one disc, in [0, 1].
-  [[nodiscard]] double chance(const PredictedDisc& disc, int step,
-                              const Eigen::Vector2d& position_world) const;
+  /// Discounted and weighted probability of contact at one step with one disc, in [0, 1], at a speed [m/s].
+  [[nodiscard]] double chance(const PredictedDisc& disc, int step, const Eigen::Vector2d& position_world,
+                              double speed) const;
 
   /// Sum over discs of the largest discounted probability along positions[1..steps] and at stop_world, where
   /// the robot would come to rest if it braked at the end, at the last step's time; returns early once the
@@ -59,6 +59,12 @@ class SpaceTimeRisk {
  private:
   void add_track(const PlanRequest& request, const ObstacleTrack& track);
   void add_peer(const PlanRequest& request, const Peer& peer);
+  /// What stands is two things: something that will stay, which is passed like a wall, and something that may
+  /// start, the less likely the longer it has stood.
+  void add_standing(int id, bool is_peer, const Eigen::Vector2d& position_world, double radius, double margin,
+                    double sigma, double own_sigma);
+  void weigh_start(PredictedDisc& disc, double stood) const;
+  void watch_goal(const PlanRequest& request);
   [[nodiscard]] PredictedDisc* next_disc();
   void finish(PredictedDisc& disc, double own_sigma);
 
@@ -71,6 +77,9 @@ class SpaceTimeRisk {
   std::vector<PredictedDisc> discs_;  // the first disc_count_ are valid; kept for their memory of 1.3 KB each
   std::vector<std::pair<double, int>> order_;
   int disc_count_ = 0;
+  bool at_goal_ = false;
+  bool near_goal_ = false;
+  Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();  // [m]
 };
 
 }  // namespace spf

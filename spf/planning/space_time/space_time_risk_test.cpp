@@ -23,6 +23,7 @@ struct RiskScene {
   [[nodiscard]] PlanRequest request() const {
     PlanRequest request;
     request.world = {0.0, 1, &map, &tracks, &peers};
+    request.goal_world = {5.0, 0.0};
     return request;
   }
 };
@@ -77,8 +78,8 @@ TEST(SpaceTimeRisk, KnowsWhenAnObstacleIsWhere) {
   risk.prepare(scene.request());
   ASSERT_EQ(risk.disc_count(), 1);
   const double discount = std::exp(-1.0 / 0.7);
-  EXPECT_NEAR(risk.chance(risk.disc(0), 10, {2.0, 0.0}), discount, 1e-9);  // 27 sigma inside
-  EXPECT_EQ(risk.chance(risk.disc(0), 30, {2.0, -1.0}), 0.0);              // it is 3 m away by then
+  EXPECT_NEAR(risk.chance(risk.disc(0), 10, {2.0, 0.0}, 0.0), discount, 1e-9);  // 27 sigma inside
+  EXPECT_EQ(risk.chance(risk.disc(0), 30, {2.0, -1.0}, 0.0), 0.0);              // it is 3 m away by then
   EXPECT_GT(standing_risk(risk, {2.0, 0.0}), 0.9 * discount);
 }
 
@@ -113,11 +114,61 @@ TEST(SpaceTimeRisk, CountsAPeerThatYieldsByItsWeightOnly) {
   SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
   risk.prepare(scene.request());
   const double yielding = standing_risk(risk, {1.0, 0.0});
-  scene.peers[0].state = PeerState::stopped;
+  scene.peers[0].robot_id = 0;
   risk.prepare(scene.request());
-  const double standing = standing_risk(risk, {1.0, 0.0});
-  // Not equal: the spread of a moving peer grows a little faster.
-  EXPECT_NEAR(yielding / standing, SpaceTimeRisk::kLowerPriorityWeight, 0.1);
+  EXPECT_NEAR(yielding / standing_risk(risk, {1.0, 0.0}), SpaceTimeRisk::kLowerPriorityWeight, 1e-9);
+}
+
+TEST(SpaceTimeRisk, LetsARobotStopBesideWhatHasStoodForLong) {
+  RiskScene scene;
+  scene.tracks.push_back(track_at(0, {0.0, 0.0}, {0.0, 0.0}));
+  SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
+  double last = 1.0;
+  for (const double stood : {0.0, 5.0, 20.0, 100.0}) {
+    scene.tracks[0].stood = stood;
+    scene.tracks[0].velocity_diffusion = stood > 0.0 ? 0.002 : 0.1;
+    risk.prepare(scene.request());
+    const double beside = standing_risk(risk, {0.8, 0.0});  // 0.1 m are left between them
+    EXPECT_LT(beside, last) << stood;
+    last = beside;
+    EXPECT_GT(standing_risk(risk, {0.65, 0.0}), 0.4) << stood;  // they would touch
+  }
+  EXPECT_LT(last, 1e-4);
+}
+
+TEST(SpaceTimeRisk, PassesWhatStandsLikeAWallTheNearerTheSlower) {
+  RiskScene scene;
+  scene.tracks.push_back(track_at(0, {0.0, 0.0}, {0.0, 0.0}));
+  scene.tracks[0].stood = 1000.0;
+  scene.tracks[0].velocity_diffusion = 0.0;
+  SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
+  risk.prepare(scene.request());
+  const auto passing = [&](double speed) {
+    std::array<Eigen::Vector2d, SpaceTimeRisk::kMaxSteps + 1> positions;
+    for (int k = 0; k <= SpaceTimeRisk::kMaxSteps; ++k)
+      positions[static_cast<std::size_t>(k)] = {speed * (0.1 * k - 1.5), 0.77};
+    return risk.along(positions, risk.steps(), positions.back(), 1e9);
+  };
+  EXPECT_LT(passing(0.1), 1e-3);
+  EXPECT_GT(passing(1.0), 0.1);
+}
+
+TEST(SpaceTimeRisk, LetsRobotsParkSideBySide) {
+  RiskScene scene;
+  Peer peer;
+  peer.robot_id = 5;
+  peer.state = PeerState::arrived;
+  peer.stood = 20.0;
+  peer.trajectory = Trajectory::standing({0.0, 0.0}, 0.0, 10.0);
+  scene.peers.push_back(peer);
+  SpaceTimeRisk risk{SpaceTimeParameters{}, 0.3, 1.0};
+  risk.prepare(scene.request());
+  const double arrived = standing_risk(risk, {0.66, 0.0});
+  EXPECT_LT(arrived, 1e-3);
+  scene.peers[0].state = PeerState::stopped;  // it may go on
+  scene.peers[0].stood = 1.0;
+  risk.prepare(scene.request());
+  EXPECT_GT(standing_risk(risk, {0.66, 0.0}), 10.0 * arrived);
 }
 
 TEST(SpaceTimeRisk, GrowsWithOwnUncertaintyOutsideTheRadius) {
