@@ -142,9 +142,15 @@ struct GoldenScenes {
 };
 
 const std::vector<GoldenScenes>& all_scenes() {
-  static const std::vector<GoldenScenes> scenes{{"t2", {}}, {"t2_hard", {}}, {"f7", {{"robots=4"}}},
-                                                {"p8", {}}, {"swap", {}},    {"field", {{"robots=5"}}},
-                                                {"ped", {}}};
+  static const std::vector<GoldenScenes> scenes{{"t2", {}},
+                                                {"t2_hard", {}},
+                                                {"f7", {{"robots=4"}}},
+                                                {"p8", {}},
+                                                {"swap", {}},
+                                                {"field", {{"robots=5"}}},
+                                                {"ped", {}},
+                                                {"clutter", {{"trial.time_limit=30"}}},
+                                                {"doors", {{"trial.time_limit=30"}}}};
   return scenes;
 }
 
