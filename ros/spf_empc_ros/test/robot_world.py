@@ -294,6 +294,14 @@ def drive(robot, seconds=20.0):
     return wait_until(under_way, seconds)
 
 
+def steady(robot, seconds=10.0):
+    """Waits until its speed has hardly changed for half a second."""
+    def find():
+        latest = [speed for stamp, speed in list(robot.speeds) if stamp > robot.last["odom"] - 0.5]
+        return len(latest) > 10 and max(latest) - min(latest) < 0.02
+    return wait_until(find, seconds)
+
+
 def braking_begins(robot, after, longest=3.0):
     """The stamp [s] of the first command that is clearly slower than one before it, from a time on; None: never."""
     def find():

@@ -5,7 +5,7 @@ import sys
 import rospy
 import rostest
 
-from robot_world import OneRobotTest, braking_begins, drive, stands, wait_until
+from robot_world import OneRobotTest, braking_begins, drive, stands, steady, wait_until
 
 STALE = 0.3  # [s] TeamParameters::stale_time
 # [s] begins within 0.1 s, seen at the next control tick; the rest is for a busy machine.
@@ -16,6 +16,7 @@ class Sensing(OneRobotTest):
     def check_stale(self, switch, sensor, reason):
         robot = self.robot
         self.assertTrue(drive(robot), robot.status.reason)
+        self.assertTrue(steady(robot), robot.status.reason)
         setattr(robot, switch, False)
         begun = braking_begins(robot, robot.last[sensor])
         self.assertIsNotNone(begun, "never braked")
@@ -61,7 +62,8 @@ class Sensing(OneRobotTest):
         # Believed, it plans from there: on a path that comes back to the middle of the hall, 2 m beside.
         self.assertTrue(drive(robot), robot.status.reason)
         robot.distort = lambda x, y: (x, y)
-        self.assertTrue(stands(robot))
+        # It goes on as soon as it stands, so that may be short.
+        self.assertTrue(wait_until(lambda: robot.speed() < 0.05, 3.0), robot.status.reason)
         self.assertTrue(drive(robot), robot.status.reason)
 
 
