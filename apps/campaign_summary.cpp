@@ -91,7 +91,7 @@ std::string csv_text(const std::vector<ResultRow>& rows) {
   for (const ResultRow& row : rows) {
     std::string condition = row.condition;
     std::replace(condition.begin(), condition.end(), '"', '\'');
-    if (condition.find_first_of(",\n") != std::string::npos) condition = '"' + condition + '"';
+    if (condition.find_first_of(",\n") != std::string::npos) condition.append(1, '"').insert(0, 1, '"');
     text += with_condition(to_csv_line(row), condition);
   }
   return text;

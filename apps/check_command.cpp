@@ -26,6 +26,7 @@ std::string scene_text(const sim::Scenario& scenario) {
   add(scenario.discs.size(), "static discs");
   add(scenario.walls.size(), "walls");
   add(scenario.polygons.size(), "polygons");
+  add(scenario.people.size(), "people with waypoints");
   add(scenario.moving.size(), "moving discs");
   std::set<int> people;
   for (const sim::CrowdSample& sample : scenario.crowd) people.insert(sample.id);

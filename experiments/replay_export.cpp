@@ -41,6 +41,9 @@ ReplayBox bounds_of(const sim::Scenario& scenario) {
   for (const sim::Disc& disc : scenario.discs) bounds.extend(disc.center);
   for (const sim::Polygon& polygon : scenario.polygons)
     for (const Eigen::Vector2d& corner : polygon.corners) bounds.extend(corner);
+  for (const sim::Segment& wall : scenario.walls) bounds.extend(wall.from).extend(wall.to);
+  for (const sim::PersonTask& person : scenario.people)
+    for (const Eigen::Vector2d& waypoint : person.waypoints) bounds.extend(waypoint);
   for (const ObstacleState& disc : scenario.moving) bounds.extend(disc.position_world);
   for (const sim::CrowdSample& sample : scenario.crowd) bounds.extend(sample.position_world);
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1.0 + scenario.robot.radius);

@@ -272,6 +272,7 @@ std::pair<std::string, int> what_did_not_fit(Family family, const LayoutParamete
 
 Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) {
   const FamilySetup checked = validated(setup);
+  require_one_robot_that_fits(checked);
   const std::uint64_t trial_seed = mix(seed, static_cast<std::uint64_t>(trial));
   const int attempts = attempts_for(checked.layout);
   std::pair<std::string, int> crowded;

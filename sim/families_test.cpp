@@ -91,6 +91,19 @@ TEST(Families, EveryFamilyDrawsUsableScenesOfItsSize) {
   }
 }
 
+TEST(Families, DrawsPassagesForOneRobotThatIsNarrower) {
+  for (const Family family : {Family::clutter, Family::doors}) {
+    FamilySetup setup = family_setup(family);
+    setup.layout.robots = 2;
+    EXPECT_THROW(make_scenario(setup, kDefaultSeed, 0), NoRoom);
+    setup.layout.robots = 1;
+    setup.robot.radius = 0.36;
+    EXPECT_THROW(make_scenario(setup, kDefaultSeed, 0), NoRoom);
+    setup.robot.radius = 0.34;
+    EXPECT_NO_THROW(make_scenario(setup, kDefaultSeed, 0));
+  }
+}
+
 TEST(Families, T2HardKeepsItsGapsAndDrawsItsRadii) {
   double smallest = 1.0;
   double largest = 0.0;

@@ -106,6 +106,7 @@ enum class StreamRole : std::uint64_t {
   detection = 0x44455445'00000000ULL,
   scan = 0x5343414E'00000000ULL,
   radio = 0x52414449'00000000ULL,
+  people = 0x50454F50'00000000ULL,
 };
 /// Seed of the stream of one role and index in a trial.
 [[nodiscard]] std::uint64_t stream_seed(const Scenario& scenario, StreamRole role, std::uint64_t index);

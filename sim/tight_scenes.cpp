@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace spf::sim {
@@ -101,6 +103,20 @@ void add_task(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Scenari
 }
 
 }  // namespace
+
+void require_one_robot_that_fits(const FamilySetup& setup) {
+  const bool doors = setup.family == Family::doors;
+  if (!doors && setup.family != Family::clutter) return;
+  const std::string family = enum_name(setup.family);
+  if (setup.layout.robots != 1)
+    throw NoRoom{"the family " + family + " has 1 robot, not " + std::to_string(setup.layout.robots),
+                 "robots"};
+  const double open = doors ? 0.5 * setup.layout.door_width_low : setup.layout.passable_radius;
+  if (setup.robot.radius < open) return;
+  std::ostringstream problem;
+  problem << "a robot of radius " << setup.robot.radius << " m must be narrower than that";
+  throw NoRoom{problem.str(), doors ? "door_width_low" : "passable_radius"};
+}
 
 bool draw_clutter(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
   const double fill = random.uniform(layout.fill_low, layout.fill_high);

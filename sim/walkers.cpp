@@ -12,7 +12,6 @@ constexpr double kArrival = 0.3;       // [m] from a waypoint, at which a reacti
 constexpr double kWallStrength = 5.0;  // [m/s^2] at a touched wall, and
 constexpr double kWallRange = 0.15;    // [m] the distance over which it falls to 1/e
 constexpr double kWallReach = 1.0;     // [m] walls farther off do not matter
-constexpr std::uint64_t kStartStream = 0x50454F504C45ULL;
 
 /// Times a way is walked along its waypoints and, where it leads back, along them again.
 std::size_t legs_of(const PersonTask& task) {
@@ -50,8 +49,7 @@ Walkers::Walkers(const Scenario& scenario) : shapes_{scenario} {
 void Walkers::choose_start(const Scenario& scenario, std::size_t index, Person& person) const {
   constexpr double kStartGap = 0.7;  // [m] between the bodies
   constexpr int kMostDraws = 100;
-  const std::uint64_t trial = mix(scenario.seed, static_cast<std::uint64_t>(scenario.trial));
-  RandomStream random{mix(mix(trial, kStartStream), index)};
+  RandomStream random{stream_seed(scenario, StreamRole::people, index)};
   const Person at_first = person;
   for (int draw = 0; draw < kMostDraws; ++draw) {
     person = at_first;

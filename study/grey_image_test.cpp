@@ -86,5 +86,20 @@ TEST(GreyImage, RefusesByName) {
   EXPECT_NE(failure(huge), "");
 }
 
+TEST(GreyImage, ReadsOnlyWhatMakesThePicture) {
+  const std::uint8_t grey[4] = {0, 100, 200, 255};
+  const std::string plain = png_of(PNG_FORMAT_GRAY, 2, 2, grey);
+  constexpr std::size_t kFirstChunkEnd = 8 + 25;  // the signature and IHDR
+  // Text that would have to be unfolded, with a checksum that is wrong.
+  const std::string text{"\0\0\0\4zTXtabcdXXXX", 16};
+  GreyImage image;
+  EXPECT_EQ(read_image(plain.substr(0, kFirstChunkEnd) + text + plain.substr(kFirstChunkEnd), image).sentence,
+            "");
+  EXPECT_THAT(image.brightness, testing::ElementsAreArray(grey));
+  // One that is longer than the file.
+  const std::string cut{"\x7F\xFF\xFF\xFFzTXtabcdXXXX", 16};
+  EXPECT_NE(read_image(plain.substr(0, kFirstChunkEnd) + cut, image).sentence, "");
+}
+
 }  // namespace
 }  // namespace spf

@@ -169,7 +169,13 @@ std::shared_ptr<const sim::StaticMap> read_map_file(const std::string& path, con
     problems.add(asked_at, "map = " + path + " " + file.why);
     return nullptr;
   }
-  if (!looks_like_image(*file.bytes)) return map_of_yaml(*file.bytes, path, settings.unknown, problems);
+  const bool is_image = looks_like_image(*file.bytes);
+  if (!is_image && (file.bytes->empty() || file.bytes->find('\0') != std::string::npos)) {
+    problems.add(asked_at,
+                 "map = " + path + " is neither a map server's YAML file nor a picture of kind PGM or PNG");
+    return nullptr;
+  }
+  if (!is_image) return map_of_yaml(*file.bytes, path, settings.unknown, problems);
   MapFile alone;
   alone.resolution = settings.image_resolution;
   alone.origin = {settings.image_origin.x(), settings.image_origin.y(), settings.image_heading};

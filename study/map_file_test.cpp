@@ -184,5 +184,14 @@ TEST_F(MapFiles, LieBesideTheirScenarioAndBelongToIt) {
   }
 }
 
+TEST_F(MapFiles, SaysWhatAFileIsNotThatIsNeitherTextNorAPictureThatItReads) {
+  for (const std::string& bytes : {std::string{}, std::string{"\xFF\xD8\xFF\xE0\0\x10JFIF", 10}}) {
+    read(write("hall.jpg", bytes));
+    EXPECT_THAT(wrong_,
+                testing::EndsWith("map = hall.jpg is neither a map server's YAML file nor a picture of kind "
+                                  "PGM or PNG"));
+  }
+}
+
 }  // namespace
 }  // namespace spf

@@ -20,6 +20,9 @@
 
 namespace spf {
 
+/// [1] A metre at the least clearance costs so many more: the robot creeps there.
+inline constexpr double kNarrowCost = 3.0;
+
 enum class CostToGoOutcome {
   reachable,    ///< a path leads from the robot to the goal
   goal_moved,   ///< likewise, but to goal_used(), the nearest free position to a goal on blocked ground

@@ -12,8 +12,6 @@ namespace {
 /// interpolation and of the steps between nodes.
 constexpr double kSightSlack = 0.25;
 constexpr double kNarrowSlack = 0.1;  // likewise by exact distances
-/// [1] A metre at the least clearance costs so many more: the robot creeps there.
-constexpr double kNarrowCost = 3.0;
 /// [1] Room gained per metre by a move that counts: across a passage it is about 1, along it little. Nodes
 /// that moved along it would lie behind positions that they are to lead on.
 constexpr double kAcross = 0.5;

@@ -286,6 +286,27 @@ TEST(ObstacleTracker, RefusesPlacesAndSpeedsBeyondAllNumbers) {
   EXPECT_EQ(tracker.stats().malformed, 4u);
 }
 
+/// Diffusion that is expected of a new obstacle after some that kept a velocity [m/s] for 20 s.
+double expected_after(double speed) {
+  ObstacleTracker tracker;
+  Observation observation;
+  for (int tick = 0; tick <= 200; ++tick) {
+    observation.time = 0.1 * tick;
+    observation.detections.clear();
+    for (int id = 0; id < 4; ++id)
+      observation.detections.push_back({id, {speed * observation.time, 2.0 * id}, std::nullopt, 0.3, 0.01});
+    if (tick == 200) observation.detections.push_back({9, {0.0, -5.0}, std::nullopt, 0.3, 0.01});
+    tracker.update(observation);
+  }
+  return tracker.tracks().back().velocity_diffusion;
+}
+
+TEST(ObstacleTracker, ExpectsOfNewObstaclesWhatThoseThatMovedDid) {
+  const double prior = DiffusionParameters{}.prior_velocity_diffusion;
+  EXPECT_LT(expected_after(0.8), 0.5 * prior);
+  EXPECT_EQ(expected_after(0.0), prior);  // what stands tells nothing of how others move
+}
+
 TEST(ObstacleTracker, ForgetsWhatItIsToldToAndKeepsTheOthers) {
   ObstacleTracker tracker;
   Observation observation;

@@ -9,8 +9,6 @@
 namespace spf {
 namespace {
 
-constexpr double kDearest = 4.0;  // [1] cost of a metre of the narrowest ground, see cost_to_go_passage.cpp
-
 /// Moves a velocity towards a target by at most `change`.
 Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d& target, double change) {
   const Eigen::Vector2d difference = target - velocity;
@@ -27,10 +25,11 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostT
   if (settings.passage != nullptr) on_way = settings.passage->direction(position_world, speed_now);
   const Eigen::Vector2d direction = on_way ? *on_way : guide.direction(position_world);
   const double cost = guide.cost_to_go(position_world);
-  // Narrow ground costs up to four times its length: near the goal the straight distance tells better.
+  // Narrow ground costs more than its length: near the goal the straight distance tells better.
   const double straight = (guide.goal_used() - position_world).norm();
-  const double distance =
-      cost < kDearest * straight + settings.step * settings.max_speed ? std::min(cost, straight) : cost;
+  const double distance = cost < (1.0 + kNarrowCost) * straight + settings.step * settings.max_speed
+                              ? std::min(cost, straight)
+                              : cost;
   // The velocity v at the end of a step, from step * v + v^2 / (2 acceleration) = distance: the step and
   // stopping from v end at the goal. It does not pass the goal within the step either.
   const double acceleration = settings.max_acceleration;

@@ -66,7 +66,7 @@ double PassageSpeed::straight_speed(const PlanRequest& request, double room) con
   return robot_.max_speed * std::clamp(pace, kCreep, 1.0);
 }
 
-/// Calls look(position, step) along the way until it returns false, as far as the robot can come within the
+/// Calls look(position) along the way until it returns false, as far as the robot can come within the
 /// horizon and then stop.
 template <class Look>
 void PassageSpeed::look_along(const Look& look) const {

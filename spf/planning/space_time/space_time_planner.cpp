@@ -253,7 +253,6 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
     stand_instead(request, robot_, *refused, result);
     return;
   }
-  lose_patience(request);
   best_score_ = {};
   best_score_.time = std::numeric_limits<double>::infinity();
   best_is_previous_ = false;
@@ -265,6 +264,7 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   settings_.max_speed = sight_.speed();
   passage_.prepare(request);
   settings_.passage = &passage_;
+  lose_patience(request);
   // 2. The current plan and the direct primitive; these suffice when the direct one is free.
   consider_previous(request, result);
   const MotionPrimitive direct{Eigen::Vector2d::Zero(), 0.0, MotionPrimitive::Then::goal};

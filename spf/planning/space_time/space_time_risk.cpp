@@ -156,7 +156,7 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   disc.priority_weight = yields ? kLowerPriorityWeight : 1.0;
   if (at_goal_) disc.priority_weight *= kAtGoalWeight;
   // What it says of its plan counts for more than what it says of its state.
-  const Eigen::Vector2d& now = peer.position(request.time);
+  const Eigen::Vector2d now = peer.position(request.time);
   const double moves = (peer.position(request.time + steps_ * parameters_.step) - now).norm();
   const bool stands = (peer.state == PeerState::stopped || peer.state == PeerState::arrived) &&
                       !peer.expired && moves < kInPlace * peer.radius;
@@ -181,8 +181,8 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   if (!stands) return;
   // A stopped peer starts moving only to dodge or to go on, one that has arrived hardly ever.
   weigh_start(disc, peer.state == PeerState::arrived ? kArrivedCounts * peer.stood : peer.stood);
-  add_standing(peer.robot_id, true, peer.position(request.time), peer.radius, parameters_.peer_margin,
-               peer.position_sigma, request.position_sigma);
+  add_standing(peer.robot_id, true, now, peer.radius, parameters_.peer_margin, peer.position_sigma,
+               request.position_sigma);
 }
 
 /// Once there a robot counts as at its goal for as long as it stays near: who dodges comes back.
@@ -211,7 +211,7 @@ double SpaceTimeRisk::chance(const PredictedDisc& disc, int step, const Eigen::V
   const auto at = static_cast<std::size_t>(step);
   double radius = disc.radius;
   double sigma = disc.sigma[at];
-  if (disc.speed_sigma > 0.0) {  // it stands
+  if (disc.stands()) {
     const double pace = std::min(1.0, speed / max_speed_);
     radius += pace * disc.speed_margin;
     sigma = std::hypot(sigma, pace * disc.speed_sigma);
@@ -235,7 +235,7 @@ double SpaceTimeRisk::along(const std::array<Eigen::Vector2d, kMaxSteps + 1>& po
       if (disc.weight[static_cast<std::size_t>(k)] <= peak) continue;  // cannot exceed the peak
       const auto at = static_cast<std::size_t>(k);
       const double speed =
-          disc.speed_sigma > 0.0 ? (positions[at] - positions[at - 1]).norm() / parameters_.step : 0.0;
+          disc.stands() ? (positions[at] - positions[at - 1]).norm() / parameters_.step : 0.0;
       peak = std::max(peak, chance(disc, k, positions[at], speed));
     }
     sum += peak;

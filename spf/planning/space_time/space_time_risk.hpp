@@ -32,7 +32,9 @@ class SpaceTimeRisk {
     std::array<double, kMaxSteps + 1> weight;               ///< erf(R / (sigma sqrt 2)) * discount * weight
     /// Of something that stands, [m] added to the radius for a robot at full speed: a slow one may go nearer.
     double speed_margin = 0.0;
-    double speed_sigma = 0.0;  ///< [m] likewise of sigma
+    double speed_sigma = 0.0;  ///< [m] likewise of sigma; 0 for what moves
+
+    [[nodiscard]] bool stands() const { return speed_sigma > 0.0; }
   };
 
   SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed);

@@ -1,0 +1,97 @@
+#include "spf/planning/space_time/passage_speed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "spf/planning/cost_to_go.hpp"
+
+namespace spf {
+namespace {
+
+/// A wall along y at x = 0 with one door, a robot of 0.3 m on its way from (-5, 0) to (5, 0).
+class PassageSpeedTest : public ::testing::Test {
+ protected:
+  void prepare(double door, const std::vector<StandingDisc>& standing = {}) {
+    map_ = OccupancyMap{GridFrame::covering({-8.0, -8.0}, {8.0, 8.0}, 0.1), 2.0};
+    map_.add_box({-0.2, 0.5 * door}, {0.2, 9.0});
+    map_.add_box({-0.2, -9.0}, {0.2, -0.5 * door});
+    guide_.set_standing(standing, 1.0);
+    ASSERT_EQ(guide_.update(map_, {5.0, 0.0}, {-5.0, 0.0}), CostToGoOutcome::reachable);
+    request_.head.position_world = {-2.0, 0.0};
+    request_.world.map = &map_;
+    request_.guide = &guide_;
+    passage_.prepare(request_);
+  }
+  [[nodiscard]] double limit_at(double x) const { return passage_.limit(guide_.cost_to_go({x, 0.0})); }
+
+  OccupancyMap map_{GridFrame::covering({-8.0, -8.0}, {8.0, 8.0}, 0.1), 2.0};
+  RobotParameters robot_;
+  CostToGo guide_{CostToGoParameters{}, robot_.radius, SpaceTimeParameters{}.static_margin};
+  PlanRequest request_;
+  PassageSpeed passage_{SpaceTimeParameters{}, robot_};
+};
+
+TEST_F(PassageSpeedTest, LimitsNothingWhereThereIsRoom) {
+  prepare(1.4);
+  EXPECT_FALSE(passage_.limits());
+  EXPECT_GT(limit_at(0.0), robot_.max_speed);
+  EXPECT_FALSE(passage_.direction({-1.0, 0.0}, 0.5).has_value());
+}
+
+TEST_F(PassageSpeedTest, IsLowerTheNarrowerTheDoorAndLeavesRoomToBrake) {
+  double last = robot_.max_speed;
+  for (const double door : {0.8, 0.74, 0.7}) {
+    prepare(door);
+    ASSERT_TRUE(passage_.limits());
+    const double inside = limit_at(0.0);
+    EXPECT_LT(inside, last) << door;
+    EXPECT_GT(inside, 0.0) << door;
+    last = inside;
+    for (double x = -1.8; x < -0.3; x += 0.1) {
+      const double before = limit_at(x);
+      const double after = limit_at(x + 0.1);
+      EXPECT_LE(before * before - after * after, 2.0 * robot_.max_acceleration * 0.2 + 1e-9)
+          << door << " " << x;
+    }
+  }
+}
+
+TEST_F(PassageSpeedTest, IsNoLowerThanHelpsWhereTheOwnPositionIsNotKnown) {
+  request_.position_sigma = 0.1;
+  prepare(0.74);
+  const double unsure = limit_at(0.0);
+  request_.position_sigma = 0.0;
+  prepare(0.74);
+  EXPECT_GT(unsure, limit_at(0.0));
+}
+
+TEST_F(PassageSpeedTest, LeadsBackToTheWayAndAlongIt) {
+  prepare(0.7);
+  const auto along = passage_.direction({-1.0, 0.0}, 0.0);
+  ASSERT_TRUE(along.has_value());
+  EXPECT_GT(along->x(), 0.99);
+  const auto beside = passage_.direction({-1.0, 0.1}, 0.0);
+  ASSERT_TRUE(beside.has_value());
+  EXPECT_LT(beside->y(), -0.3);
+  EXPECT_FALSE(passage_.direction({-1.0, 2.0}, 0.0).has_value());
+}
+
+TEST_F(PassageSpeedTest, StopsBeforeWhatStandsInTheOnlyWayAndNamesIt) {
+  prepare(0.9, {{{0.0, 0.0}, 0.3, 10.0, 7, true}});
+  ASSERT_NE(passage_.blocked_by(), nullptr);
+  EXPECT_EQ(passage_.blocked_by()->id, 7);
+  EXPECT_TRUE(passage_.blocked_by()->is_peer);
+  EXPECT_EQ(limit_at(-0.6), 0.0);  // 0.1 m before it
+  EXPECT_GT(limit_at(-1.5), 0.5);
+  // To come nearer than where it stops is no progress, to be behind it is.
+  EXPECT_EQ(passage_.left_to_go(guide_.cost_to_go({-0.55, 0.0})),
+            passage_.left_to_go(guide_.cost_to_go({-0.5, 0.0})));
+  EXPECT_LT(passage_.left_to_go(guide_.cost_to_go({1.5, 0.0})),
+            passage_.left_to_go(guide_.cost_to_go({-0.55, 0.0})) - 5.0);
+  prepare(0.9);
+  EXPECT_EQ(passage_.blocked_by(), nullptr);
+}
+
+}  // namespace
+}  // namespace spf
