@@ -11,15 +11,22 @@ struct CostToGo::Cell {
   Eigen::Vector2d local;  // [m] from the window's origin
   std::array<std::int32_t, 4> node;
   std::array<double, 4> weight;
-  Eigen::Vector2d slope[4];  // of the weights [1/m]
-  double outside;            // [m] distance to the window
-  Eigen::Vector2d outward;   // unit vector away from the window, zero inside
+  double x, y;              // [cells] from the first node
+  double outside;           // [m] distance to the window
+  Eigen::Vector2d outward;  // unit vector away from the window, zero inside
 };
 
 CostToGo::CostToGo(const CostToGoParameters& parameters, double robot_radius, double least_margin)
     : parameters_{validated(parameters)},
       clearance_{parameters.clearance + robot_radius},
       least_clearance_{robot_radius + std::min(parameters.clearance, least_margin)} {}
+
+CostToGo CostToGo::anew() const {
+  CostToGo fresh{parameters_};
+  fresh.clearance_ = clearance_;
+  fresh.least_clearance_ = least_clearance_;
+  return fresh;
+}
 
 void CostToGo::set_standing(const std::vector<StandingDisc>& discs, double speed) {
   standing_ = discs;
@@ -62,15 +69,11 @@ CostToGo::Cell CostToGo::cell_of(const Eigen::Vector2d& position_world) const {
   const double v = cell.local.y() * per_metre;
   const int i = std::min(static_cast<int>(u), window_.width - 2);
   const int j = std::min(static_cast<int>(v), window_.height - 2);
-  const double x = u - i;
-  const double y = v - j;
+  const double x = cell.x = u - i;
+  const double y = cell.y = v - j;
   const std::int32_t first = window_.index(i, j);
   cell.node = {first, first + 1, first + window_.width, first + window_.width + 1};
   cell.weight = {(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y};
-  cell.slope[0] = per_metre * Eigen::Vector2d{y - 1.0, x - 1.0};
-  cell.slope[1] = per_metre * Eigen::Vector2d{1.0 - y, -x};
-  cell.slope[2] = per_metre * Eigen::Vector2d{-y, 1.0 - x};
-  cell.slope[3] = per_metre * Eigen::Vector2d{y, x};
   return cell;
 }
 
@@ -86,10 +89,15 @@ double CostToGo::cost_to_go(const Eigen::Vector2d& position_world) const {
 Eigen::Vector2d CostToGo::cost_gradient(const Eigen::Vector2d& position_world) const {
   const Cell cell = cell_of(position_world);
   if (cell.outside > 0.0) return cell.outward;
+  const double per_metre = 1.0 / window_.resolution;
+  const Eigen::Vector2d slope[4] = {per_metre * Eigen::Vector2d{cell.y - 1.0, cell.x - 1.0},
+                                    per_metre * Eigen::Vector2d{1.0 - cell.y, -cell.x},
+                                    per_metre * Eigen::Vector2d{-cell.y, 1.0 - cell.x},
+                                    per_metre * Eigen::Vector2d{cell.y, cell.x}};  // of the weights [1/m]
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
     const Node& node = node_at(cell.node[k]);
-    gradient += cost_at(node, cell.local) * cell.slope[k];
+    gradient += cost_at(node, cell.local) * slope[k];
     const Eigen::Vector2d from_parent = cell.local - Eigen::Vector2d{node.parent_x, node.parent_y};
     const double length = from_parent.norm();
     if (length > 0.0) gradient += cell.weight[k] / length * from_parent;

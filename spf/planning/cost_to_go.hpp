@@ -41,6 +41,9 @@ class CostToGo {
   explicit CostToGo(const CostToGoParameters& parameters, double robot_radius = 0.0,
                     double least_margin = std::numeric_limits<double>::infinity());
 
+  /// Without a cost-to-go, for the same robot.
+  [[nodiscard]] CostToGo anew() const;
+
   /// What stands in the way from the next update() on: a way through it costs the time that it will stay, at
   /// `speed` [m/s]. Without narrow passages (see the constructor) it is not looked at.
   void set_standing(const std::vector<StandingDisc>& discs, double speed);
@@ -51,12 +54,21 @@ class CostToGo {
   /// and freed when all of the map is known; what remains is 2 bytes a node and 16 for every distinct parent.
   CostToGoOutcome update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                          const Eigen::Vector2d& robot_world);
+  /// update() in slices: begins, and is done when advance() says so. Until then there is no cost-to-go.
+  void begin(const OccupancyMap& map, const Eigen::Vector2d& goal_world, const Eigen::Vector2d& robot_world);
+  /// Does about this much work, in units of some 20 ns on a processor of 2020: counted, not timed, so that
+  /// the same run gives the same slices. The map may have changed since the last slice; what changed behind
+  /// the wavefront is not seen before the next update. True when done.
+  bool advance(const OccupancyMap& map, std::int64_t work);
+  [[nodiscard]] bool under_way() const { return progress_.stage != Stage::done; }
+  /// Number of nodes.
+  [[nodiscard]] std::int64_t size() const { return window_count(); }
   /// Whether update() with these arguments could change anything: new goal, changed map, robot out of the
   /// window.
   [[nodiscard]] bool outdated(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                               const Eigen::Vector2d& robot_world) const;
 
-  [[nodiscard]] bool ready() const { return !parents_.empty(); }
+  [[nodiscard]] bool ready() const { return !parents_.empty() && !under_way(); }
   [[nodiscard]] CostToGoOutcome outcome() const { return outcome_; }
 
   // The following require ready(); none allocates (except to grow shortest_path()'s argument).
@@ -118,6 +130,24 @@ class CostToGo {
     std::vector<std::int32_t> nearest_reached;
     std::vector<std::int32_t> queue;
   };
+  /// What advance() does next.
+  enum class Stage : std::uint8_t {
+    mark_free_nodes,
+    propagate,
+    find_reached,  // the nodes that the wavefront has reached ...
+    find_nearest,  // ... the nearest of them to every other node ...
+    extend,        // ... which gets its parent
+    keep_parents,
+    keep_places,
+    done,
+  };
+  struct Progress {
+    Stage stage = Stage::done;
+    std::int32_t next = 0;                  // node of the stage, or place in the queue
+    bool everywhere = false;                // the window is the whole map
+    Eigen::Vector2d robot_world{0.0, 0.0};  // [m]
+    std::int64_t limit = 0;                 // of work, in this slice
+  };
   struct Cell;
   static constexpr std::int32_t kGoal = -1;
   static constexpr std::int32_t kUnseen = -2;
@@ -150,8 +180,15 @@ class CostToGo {
   void for_neighbours(std::int32_t index, const Visit& visit) const;
 
   void set_window(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
-  void mark_free_nodes(const OccupancyMap& map);
-  void propagate(const OccupancyMap& map);
+  void open_window(const OccupancyMap& map);
+  void enter(Stage stage);
+  bool run_stage(const OccupancyMap& map);
+  [[nodiscard]] bool tired() const { return work_ >= progress_.limit; }
+  template <class Visit>
+  bool for_nodes(std::int32_t count, const Visit& visit);
+  void mark_free_node(const OccupancyMap& map, std::int32_t index);
+  bool propagate(const OccupancyMap& map);
+  void end_propagation(const OccupancyMap& map);
   void seed(const OccupancyMap& map);
   [[nodiscard]] bool between_viewers(std::int32_t index) const;
   void push(std::int32_t index);
@@ -176,9 +213,12 @@ class CostToGo {
   [[nodiscard]] Node parent_around_bend(const OccupancyMap& map, std::int32_t index);
   [[nodiscard]] bool wavefront_reached(const Eigen::Vector2d& position_world) const;
   [[nodiscard]] bool settled_at(std::int32_t index) const;
-  void extend_over_blocked_ground();
-  void keep(const OccupancyMap& map);
-  void keep_places();
+  void enter_reached(std::int32_t index);
+  bool find_nearest();
+  void extend(std::int32_t index);
+  bool keep_parents();
+  void keep_place(std::int32_t index);
+  void free_memory(const OccupancyMap& map);
   [[nodiscard]] std::optional<std::uint16_t> kept_beside(std::int32_t index) const;
   [[nodiscard]] std::optional<Eigen::Vector2d> nearest_free_position(const OccupancyMap& map,
                                                                      const Eigen::Vector2d& wanted) const;
@@ -202,7 +242,19 @@ class CostToGo {
   std::vector<std::uint16_t>
       parent_of_;  // by node, an index into parents_; empty: parents_ is by node itself
   Wavefront wavefront_;
+  Progress progress_;
+  mutable std::int64_t work_ = 0;  // done in this slice
 };
+
+template <class Visit>
+bool CostToGo::for_nodes(std::int32_t count, const Visit& visit) {
+  for (; progress_.next < count; ++progress_.next) {
+    if (tired()) return false;
+    visit(progress_.next);
+    ++work_;
+  }
+  return true;
+}
 
 template <class Visit>
 void CostToGo::for_neighbours(std::int32_t index, const Visit& visit) const {

@@ -11,91 +11,92 @@ namespace {
 
 constexpr double kBlockedFactor =
     3.0;  // [1] about the cost of a metre on blocked ground, where no path leads
+constexpr std::int64_t kVisitWork = 2;
 
 }  // namespace
+
+void CostToGo::enter_reached(std::int32_t index) {
+  if (!settled_at(index)) return;
+  wavefront_.nearest_reached[static_cast<std::size_t>(index)] = index;
+  wavefront_.queue.push_back(index);
+}
 
 // A node that the wavefront did not reach takes the parent of the nearest node that it did, with a surcharge
 // for every metre of depth beyond the first cells. Nearest, not cheapest, so that the two faces of a wall
 // keep their own costs.
-void CostToGo::extend_over_blocked_ground() {
-  wavefront_.queue.clear();
-  wavefront_.nearest_reached.assign(wavefront_.nodes.size(), kUnseen);
-  const std::int32_t count = window_count();
-  for (std::int32_t index = 0; index < count; ++index) {
-    if (!settled_at(index)) continue;
-    wavefront_.nearest_reached[static_cast<std::size_t>(index)] = index;
-    wavefront_.queue.push_back(index);
-  }
-  if (wavefront_.queue.empty()) {  // not even the goal's neighbours: straight lines, all of them surcharged
-    const Eigen::Vector2d local = goal_used_ - window_.origin_world;
-    const Node goal{static_cast<float>(local.x()), static_cast<float>(local.y()), 0.0F, kBlocked};
-    std::fill(wavefront_.nodes.begin(), wavefront_.nodes.end(), goal);
-    return;
-  }
-  for (std::size_t head = 0; head < wavefront_.queue.size(); ++head) {
-    const std::int32_t nearest_reached =
-        wavefront_.nearest_reached[static_cast<std::size_t>(wavefront_.queue[head])];
+bool CostToGo::find_nearest() {
+  for (; static_cast<std::size_t>(progress_.next) < wavefront_.queue.size(); ++progress_.next) {
+    if (tired()) return false;
+    ++work_;
+    const std::int32_t here = wavefront_.queue[static_cast<std::size_t>(progress_.next)];
+    const std::int32_t nearest_reached = wavefront_.nearest_reached[static_cast<std::size_t>(here)];
     const Eigen::Vector2d nearest_position = local_position(nearest_reached);
-    for_neighbours(wavefront_.queue[head], [&](std::int32_t next) {
+    for_neighbours(here, [&](std::int32_t next) {
       std::int32_t& known = wavefront_.nearest_reached[static_cast<std::size_t>(next)];
       if (known == next || known == nearest_reached) return;
       const double depth = (local_position(next) - nearest_position).squaredNorm();
       if (known != kUnseen && depth >= (local_position(next) - local_position(known)).squaredNorm()) return;
       known = nearest_reached;
       wavefront_.queue.push_back(next);
+      work_ += kVisitWork;
     });
   }
-  const double free_depth = 1.5 * window_.resolution;
-  for (std::int32_t index = 0; index < count; ++index) {
-    const std::int32_t nearest_reached = wavefront_.nearest_reached[static_cast<std::size_t>(index)];
-    if (nearest_reached == index) continue;
-    Node node = wavefront_.nodes[static_cast<std::size_t>(nearest_reached)];
-    const double depth =
-        std::max((local_position(index) - local_position(nearest_reached)).norm() - free_depth, 0.0);
-    node.parent_cost += static_cast<float>((kBlockedFactor - 1.0) * depth);
-    node.parent_node = kBlocked - 1 - nearest_reached;
-    wavefront_.nodes[static_cast<std::size_t>(index)] = node;
+  return true;
+}
+
+void CostToGo::extend(std::int32_t index) {
+  Node& node = wavefront_.nodes[static_cast<std::size_t>(index)];
+  const std::int32_t nearest_reached = wavefront_.nearest_reached[static_cast<std::size_t>(index)];
+  if (nearest_reached == index) return;
+  if (nearest_reached == kUnseen) {  // not even the goal's neighbours: straight lines, all of them surcharged
+    const Eigen::Vector2d local = goal_used_ - window_.origin_world;
+    node = {static_cast<float>(local.x()), static_cast<float>(local.y()), 0.0F, kBlocked};
+    return;
   }
+  work_ += kVisitWork;
+  const double free_depth = 1.5 * window_.resolution;
+  node = wavefront_.nodes[static_cast<std::size_t>(nearest_reached)];
+  const double depth =
+      std::max((local_position(index) - local_position(nearest_reached)).norm() - free_depth, 0.0);
+  node.parent_cost += static_cast<float>((kBlockedFactor - 1.0) * depth);
+  node.parent_node = kBlocked - 1 - nearest_reached;
 }
 
 // Stores each distinct parent once: whole regions share one, so nearly every node has that of a neighbour.
-void CostToGo::keep(const OccupancyMap& map) {
+bool CostToGo::keep_parents() {
   constexpr std::size_t kMostParents = std::size_t{1} << 16;
-  parent_of_.clear();
-  parent_of_.reserve(wavefront_.nodes.size());
   const auto count = static_cast<std::int32_t>(wavefront_.nodes.size());
-  for (std::int32_t index = 0; index < count; ++index) {
+  return for_nodes(count, [&](std::int32_t index) {
+    if (index == 0) parents_.clear();
+    if (parent_of_.size() != static_cast<std::size_t>(index)) return;  // too many: by node itself
     const std::optional<std::uint16_t> known = kept_beside(index);
     if (!known && parents_.size() == kMostParents) {
       parent_of_.clear();
       parents_ = wavefront_.nodes;
-      break;
+      return;
     }
     parent_of_.push_back(known.value_or(static_cast<std::uint16_t>(parents_.size())));
     if (!known) parents_.push_back(wavefront_.nodes[static_cast<std::size_t>(index)]);
-  }
-  moved_.clear();
-  bends_.clear();
-  if (map.sensed()) return;
-  keep_places();
-  wavefront_ = {};
-  parents_.shrink_to_fit();
+  });
 }
 
-void CostToGo::keep_places() {
-  const double unit = kMovedUnit * window_.resolution;
-  for (std::size_t index = 0; index < wavefront_.place.size(); ++index) {
-    const auto node = static_cast<std::int32_t>(index);
-    const Eigen::Vector2f& place = wavefront_.place[index];
-    if (node >= window_count()) {
-      bends_.push_back(place);
-      continue;
-    }
-    const Eigen::Vector2d offset = (place.cast<double>() - grid_position(node)) / unit;
-    const auto x = static_cast<std::int16_t>(std::lround(offset.x()));
-    const auto y = static_cast<std::int16_t>(std::lround(offset.y()));
-    if (x != 0 || y != 0) moved_.push_back({node, x, y});
+void CostToGo::keep_place(std::int32_t index) {
+  const Eigen::Vector2f& place = wavefront_.place[static_cast<std::size_t>(index)];
+  if (index >= window_count()) {
+    bends_.push_back(place);
+    return;
   }
+  const double unit = kMovedUnit * window_.resolution;
+  const Eigen::Vector2d offset = (place.cast<double>() - grid_position(index)) / unit;
+  const auto x = static_cast<std::int16_t>(std::lround(offset.x()));
+  const auto y = static_cast<std::int16_t>(std::lround(offset.y()));
+  if (x != 0 || y != 0) moved_.push_back({index, x, y});
+}
+
+void CostToGo::free_memory(const OccupancyMap& map) {
+  if (map.sensed()) return;
+  wavefront_ = {};
+  parents_.shrink_to_fit();
   moved_.shrink_to_fit();
 }
 

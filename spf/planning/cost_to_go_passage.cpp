@@ -15,8 +15,10 @@ constexpr double kNarrowSlack = 0.1;  // likewise by exact distances
 /// [1] Room gained per metre by a move that counts: across a passage it is about 1, along it little. Nodes
 /// that moved along it would lie behind positions that they are to lead on.
 constexpr double kAcross = 0.5;
-constexpr double kNextToNothing = 0.02;  // [m]
-constexpr int kBendRounds = 3;           // a way between neighbours bends 7 times at most
+constexpr double kNextToNothing = 0.02;     // [m]
+constexpr std::int64_t kLookWork = 2;       // of distance()
+constexpr std::int64_t kExactLookWork = 6;  // of exact_distance()
+constexpr int kBendRounds = 3;              // a way between neighbours bends 7 times at most
 
 }  // namespace
 
@@ -24,6 +26,7 @@ constexpr int kBendRounds = 3;           // a way between neighbours bends 7 tim
 std::optional<double> CostToGo::view(const OccupancyMap& map, const Eigen::Vector2d& from,
                                      const Eigen::Vector2d& to) const {
   if (narrow()) return narrow_view(map, from, to);
+  work_ += kLookWork * (2 + static_cast<std::int64_t>((to - from).norm() / map.max_distance()));
   if (!map.segment_clear(window_.origin_world + from, window_.origin_world + to,
                          clearance_ - kSightSlack * map.frame().resolution))
     return std::nullopt;
@@ -44,8 +47,12 @@ std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen
   for (double travelled = 0.0;;) {
     const Eigen::Vector2d here = start + travelled * direction;
     double room = map.distance(here);
+    work_ += kLookWork;
     // It reads up to half a cell too little, or a little too much beside a corner.
-    if (room < least + 0.1 * cell) room = map.exact_distance(here);
+    if (room < least + 0.1 * cell) {
+      room = map.exact_distance(here);
+      work_ += kExactLookWork;
+    }
     if (!(room >= least)) return std::nullopt;
     // What costs next to nothing shares its parent with its neighbours, which saves memory.
     if (travelled >= length)
@@ -102,6 +109,7 @@ Eigen::Vector2d CostToGo::roomiest(const OccupancyMap& map, const Eigen::Vector2
     for (const auto& [x, y] : std::array<std::pair<int, int>, 4>{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}}) {
       const Eigen::Vector2d trial = best + step * Eigen::Vector2d{x, y};
       if ((trial - node_world).lpNorm<Eigen::Infinity>() > reach) continue;
+      work_ += kExactLookWork;
       const double there = map.exact_distance(trial);
       if (there <= room + kAcross * step) continue;
       room = there;
@@ -123,6 +131,7 @@ std::optional<Eigen::Vector2d> CostToGo::middle_of_gap(const OccupancyMap& map, 
   const double length = along.norm();
   if (!(length > 0.0)) return std::nullopt;
   const auto room_at = [&](const Eigen::Vector2d& local) {
+    work_ += kExactLookWork;
     return map.exact_distance(window_.origin_world + local);
   };
   Eigen::Vector2d narrowest = from;

@@ -17,44 +17,15 @@ enum NodeState : std::uint8_t {
   settled,  // its cost is final
 };
 
+constexpr std::int64_t kNodeWork = 5;
+constexpr std::int64_t kSettlingWork = 25;
+
 template <class Entry>
 bool costlier(const Entry& a, const Entry& b) {
   return a.cost > b.cost;
 }
 
 }  // namespace
-
-CostToGoOutcome CostToGo::update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
-                                 const Eigen::Vector2d& robot_world) {
-  parents_.clear();
-  goal_asked_ = goal_world;
-  goal_used_ = goal_world;
-  map_revision_ = map.revision();
-  outcome_ = CostToGoOutcome::no_free_goal;
-  if (!goal_world.allFinite() || !robot_world.allFinite()) return outcome_;
-  const std::optional<Eigen::Vector2d> goal = nearest_free_position(map, goal_world);
-  if (!goal) return outcome_;
-  goal_used_ = *goal;
-  const CostToGoOutcome success =
-      goal_used_ == goal_world ? CostToGoOutcome::reachable : CostToGoOutcome::goal_moved;
-
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(parameters_.window_margin);
-  for (const bool everywhere : {false, true}) {
-    const Eigen::Vector2d room = everywhere ? Eigen::Vector2d::Constant(1e9) : margin;
-    set_window(map, goal_used_.cwiseMin(robot_world) - room, goal_used_.cwiseMax(robot_world) + room);
-    mark_free_nodes(map);
-    propagate(map);
-    if (wavefront_reached(robot_world)) {
-      outcome_ = success;
-      break;
-    }
-    outcome_ = CostToGoOutcome::unreachable;
-    if (whole_map_) break;
-  }
-  extend_over_blocked_ground();
-  keep(map);
-  return outcome_;
-}
 
 bool CostToGo::wavefront_reached(const Eigen::Vector2d& position_world) const {
   if (!window_covers(position_world)) return false;
@@ -77,57 +48,25 @@ bool CostToGo::wavefront_reached(const Eigen::Vector2d& position_world) const {
   return false;
 }
 
-// Coarse nodes on the part of the map that the rectangle covers.
-void CostToGo::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
-  const GridFrame& frame = map.frame();
-  const Eigen::Vector2d map_low = frame.origin_world;
-  const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
-  // Two free nodes must not be neighbours across a wall, however thin, so their distance stays below 2
-  // clearance, diagonally and where either moves by half a spacing.
-  const double safe_spacing =
-      least_clearance_ > 0.0 ? (narrow() ? 0.9 : 1.4) * least_clearance_ : parameters_.resolution;
-  const double spacing = std::max(std::min(parameters_.resolution, safe_spacing), frame.resolution);
-  // Nodes lie on multiples of the spacing from the map's corner, so that they do not move with the window.
-  const auto snapped = [&](const Eigen::Vector2d& corner) {
-    const Eigen::Vector2d inside = corner.cwiseMax(map_low).cwiseMin(map_high);
-    return Eigen::Vector2d{map_low + spacing * ((inside - map_low) / spacing).array().floor().matrix()};
-  };
-  whole_map_ = (low.array() <= map_low.array()).all() && (high.array() >= map_high.array()).all();
-  const Eigen::Vector2d top = high.cwiseMin(map_high).cwiseMax(map_low);
-  window_ = GridFrame::covering(snapped(low), top.cwiseMax(snapped(low)), spacing);
-  window_.width = std::max(window_.width, 2);
-  window_.height = std::max(window_.height, 2);
-}
-
-void CostToGo::mark_free_nodes(const OccupancyMap& map) {
-  const std::size_t count = static_cast<std::size_t>(window_count());
-  wavefront_.state.resize(count);
-  wavefront_.surcharge.assign(count, 0.0F);
-  wavefront_.nodes.assign(count, {0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen});
-  wavefront_.place.resize(narrow() ? count : 0);
-  wavefront_.dear.assign(narrow() ? count : 0, 0);
-  std::size_t index = 0;
-  for (int j = 0; j < window_.height; ++j) {
-    for (int i = 0; i < window_.width; ++i, ++index) {
-      Eigen::Vector2d position = window_.node_position(i, j);
-      double room = map.distance(position);
-      if (narrow()) {
-        wavefront_.dear[index] = room < clearance_ || standing_near(position);
-        if (room < clearance_) position = roomiest(map, position, room);
-        wavefront_.place[index] = (position - window_.origin_world).cast<float>();
-      }
-      wavefront_.state[index] = room >= least_clearance_ ? unseen : blocked;
-    }
+void CostToGo::mark_free_node(const OccupancyMap& map, std::int32_t index) {
+  const auto node = static_cast<std::size_t>(index);
+  Eigen::Vector2d position = window_.origin_world + grid_position(index);
+  double room = map.distance(position);
+  work_ += kNodeWork;
+  if (narrow()) {
+    wavefront_.dear[node] = room < clearance_ || standing_near(position);
+    if (room < clearance_) position = roomiest(map, position, room);
+    wavefront_.place[node] = (position - window_.origin_world).cast<float>();
   }
+  wavefront_.state[node] = room >= least_clearance_ ? unseen : blocked;
 }
 
 // Nodes leave the heap in the order of their cost, on the assumption that their parent is in line of sight.
 // Only then is that checked, once a node (lazy); a node for which it is wrong gets the best parent that is,
 // and goes back to the heap.
-void CostToGo::propagate(const OccupancyMap& map) {
-  wavefront_.heap.clear();
-  seed(map);
+bool CostToGo::propagate(const OccupancyMap& map) {
   while (!wavefront_.heap.empty()) {
+    if (tired()) return false;
     std::pop_heap(wavefront_.heap.begin(), wavefront_.heap.end(), costlier<Entry>);
     const Entry entry = wavefront_.heap.back();
     wavefront_.heap.pop_back();
@@ -145,9 +84,11 @@ void CostToGo::propagate(const OccupancyMap& map) {
       }
     }
     state = settled;
+    work_ += kSettlingWork;
     const Node parent = parent_of(entry.node);
     for_neighbours(entry.node, [&](std::int32_t next) { offer(next, parent); });
   }
+  return true;
 }
 
 // Whether the line from a node to its parent passes between two neighbours that see the same parent. Nothing

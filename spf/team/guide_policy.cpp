@@ -19,6 +19,7 @@ GuidePolicy::GuidePolicy(const AgentParameters& parameters, const GuideNeeds& ne
     : needs_{needs},
       goal_tolerance_{parameters.team.goal_tolerance},
       cost_to_go_{for_robot(parameters, needs)},
+      next_{cost_to_go_},
       max_speed_{parameters.robot.max_speed},
       next_time_{time} {}
 
@@ -33,24 +34,54 @@ void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeed
       wanted.resolution() == cost_to_go_.resolution())
     return;
   cost_to_go_ = std::move(wanted);
+  next_ = cost_to_go_;
   goal_.reset();
 }
 
 void GuidePolicy::refresh(double time, const WorldSnapshot& world, const Eigen::Vector2d& goal_world,
                           const Eigen::Vector2d& here) {
   const OccupancyMap& map = *world.map;
-  const bool same_goal = cost_to_go_.ready() && goal_ == goal_world;
-  if (same_goal && !is_due(next_time_, time)) return;
-  const bool goes_round = cost_to_go_.least_clearance() < cost_to_go_.clearance();
-  if (goes_round) choose_standing(world, here, same_goal);
-  const bool others_stand = differ(cost_to_go_.standing(), standing_);
+  if (!cost_to_go_.ready() || goal_ != goal_world) {
+    start(world, goal_world, here);
+    update_time_ = time;
+    next_time_ = time + kPeriod;
+    return;
+  }
+  if (!next_.under_way()) {
+    if (!is_due(next_time_, time) || !wants_update(time, world, here)) return;
+    next_.set_standing(standing_, max_speed_);
+    next_.begin(map, goal_world, here);
+    approaching_ = false;
+    update_time_ = time;
+    next_time_ = time + kPeriod;
+  }
+  go_on(map, here);
+}
+
+bool GuidePolicy::goes_round() const {
+  return cost_to_go_.least_clearance() < cost_to_go_.clearance();
+}
+
+/// For the present goal.
+bool GuidePolicy::wants_update(double time, const WorldSnapshot& world, const Eigen::Vector2d& here) {
+  if (goes_round()) choose_standing(world, here, true);
+  urgent_ = differ(cost_to_go_.standing(), standing_);
+  if (urgent_) return true;
   // What was newly sensed off the path makes no other path shorter: only one that is blocked cannot wait.
-  const bool can_wait = same_goal && !is_due(update_time_ + kIdlePeriod, time);
-  if (can_wait && (cut_off_ || path_clear(map, here)) && !others_stand) return;
-  if (same_goal && !cut_off_ && !others_stand && !cost_to_go_.outdated(map, goal_world, here)) return;
+  urgent_ = !cut_off_ && !path_clear(*world.map, here);
+  if (!urgent_ && !is_due(update_time_ + kIdlePeriod, time)) return false;
+  return cut_off_ || cost_to_go_.outdated(*world.map, *goal_, here);
+}
+
+/// A new goal: the robot needs the guide at once.
+void GuidePolicy::start(const WorldSnapshot& world, const Eigen::Vector2d& goal_world,
+                        const Eigen::Vector2d& here) {
+  const OccupancyMap& map = *world.map;
+  next_ = cost_to_go_.anew();
+  if (goes_round()) choose_standing(world, here, false);
   cost_to_go_.set_standing(standing_, max_speed_);
   cost_to_go_.update(map, goal_world, here);
-  if (goes_round && !same_goal) {  // what stands on the new way
+  if (goes_round()) {  // what stands on the new way
     choose_standing(world, here, cost_to_go_.ready());
     if (differ(cost_to_go_.standing(), standing_)) {
       cost_to_go_.set_standing(standing_, max_speed_);
@@ -60,21 +91,36 @@ void GuidePolicy::refresh(double time, const WorldSnapshot& world, const Eigen::
   // Without a path to the goal the robot goes as near as the shortest path through the walls leads, and waits
   // there.
   cut_off_ = cost_to_go_.outcome() == CostToGoOutcome::unreachable && needs_.approaches_cut_off_goal;
-  if (cut_off_) cost_to_go_.update(map, last_free_position(map, here), here);
+  if (cut_off_) cost_to_go_.update(map, last_free_position(cost_to_go_, map, here), here);
   goal_ = goal_world;
-  update_time_ = time;
-  next_time_ = time + kPeriod;
+}
+
+/// A slice of the update under way.
+void GuidePolicy::go_on(const OccupancyMap& map, const Eigen::Vector2d& here) {
+  const std::int64_t slice =
+      urgent_ ? kMostSlice : std::clamp(kSliceOfNode * next_.size(), kLeastSlice, kMostSlice);
+  if (!next_.advance(map, slice)) return;
+  const bool unreachable = next_.outcome() == CostToGoOutcome::unreachable && !approaching_;
+  if (unreachable && needs_.approaches_cut_off_goal) {
+    next_.begin(map, last_free_position(next_, map, here), here);
+    approaching_ = true;
+    return;
+  }
+  cut_off_ = approaching_;
+  std::swap(cost_to_go_, next_);
+  if (!map.sensed()) next_ = cost_to_go_.anew();  // frees its memory
 }
 
 /// The last position on the guide's path that keeps its clearance up to there; no nearer to the end of it
 /// than the robot keeps where there is room.
-Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const Eigen::Vector2d& here) {
-  cost_to_go_.shortest_path(here, corners_);
+Eigen::Vector2d GuidePolicy::last_free_position(const CostToGo& guide, const OccupancyMap& map,
+                                                const Eigen::Vector2d& here) {
+  guide.shortest_path(here, corners_);
   Eigen::Vector2d last = here;
   Eigen::Vector2d roomy = here;
   const auto end = [&] {
     const double nearer = (last - roomy).norm();
-    return nearer < 2.0 * (cost_to_go_.clearance() - cost_to_go_.least_clearance()) ? roomy : last;
+    return nearer < 2.0 * (guide.clearance() - guide.least_clearance()) ? roomy : last;
   };
   const double step = map.frame().resolution;
   for (std::size_t i = 1; i < corners_.size(); ++i) {
@@ -83,9 +129,9 @@ Eigen::Vector2d GuidePolicy::last_free_position(const OccupancyMap& map, const E
     for (int k = 1; k <= steps; ++k) {
       const Eigen::Vector2d position = corners_[i - 1] + leg * (static_cast<double>(k) / steps);
       const double room = needs_.passes_narrow_gaps ? map.exact_distance(position) : map.distance(position);
-      if (room < cost_to_go_.least_clearance()) return end();
+      if (room < guide.least_clearance()) return end();
       last = position;
-      if (room >= cost_to_go_.clearance()) roomy = position;
+      if (room >= guide.clearance()) roomy = position;
     }
   }
   return last;

@@ -30,8 +30,8 @@ class GuidePolicy {
   /// Other parameters from now on; a guide with another clearance or resolution is computed anew.
   void reconfigure(const AgentParameters& parameters, const GuideNeeds& needs);
 
-  /// Brings the guide up to date where that is due, for a robot at `here`. What stands in the world is gone
-  /// round where that is shorter than to wait.
+  /// Brings the guide up to date where that is due, for a robot at `here`: for a new goal at once, else in
+  /// slices over the next calls. What stands in the world is gone round where that is shorter than to wait.
   void refresh(double time, const WorldSnapshot& world, const Eigen::Vector2d& goal_world,
                const Eigen::Vector2d& here);
 
@@ -49,20 +49,34 @@ class GuidePolicy {
   [[nodiscard]] bool goal_out_of_reach(const Eigen::Vector2d& here) const;
 
  private:
-  [[nodiscard]] bool path_clear(const OccupancyMap& map, const Eigen::Vector2d& here);
-  [[nodiscard]] Eigen::Vector2d last_free_position(const OccupancyMap& map, const Eigen::Vector2d& here);
+  // [20 ns] Of an update, a call of refresh(): while the robot can go on as before a fifth of a millisecond,
+  // or for large windows so much that an update takes some twenty calls ...
+  static constexpr std::int64_t kLeastSlice = 10'000;
+  static constexpr std::int64_t kSliceOfNode = 1;
+  // ... and while its way is blocked all that fits beside a plan into a millisecond.
+  static constexpr std::int64_t kMostSlice = 30'000;
 
+  void start(const WorldSnapshot& world, const Eigen::Vector2d& goal_world, const Eigen::Vector2d& here);
+  void go_on(const OccupancyMap& map, const Eigen::Vector2d& here);
+  [[nodiscard]] bool goes_round() const;
+  [[nodiscard]] bool wants_update(double time, const WorldSnapshot& world, const Eigen::Vector2d& here);
+  [[nodiscard]] bool path_clear(const OccupancyMap& map, const Eigen::Vector2d& here);
+  [[nodiscard]] Eigen::Vector2d last_free_position(const CostToGo& guide, const OccupancyMap& map,
+                                                   const Eigen::Vector2d& here);
   void choose_standing(const WorldSnapshot& world, const Eigen::Vector2d& here, bool same_goal);
   [[nodiscard]] bool stands_on(const std::vector<Eigen::Vector2d>& path, const StandingDisc& disc) const;
 
   GuideNeeds needs_;
   double goal_tolerance_;  // [m]
   CostToGo cost_to_go_;
+  CostToGo next_;                         // takes its place when done
   std::vector<Eigen::Vector2d> corners_;  // [m] kept for its memory
   std::vector<StandingDisc> standing_;    // likewise
   double max_speed_;                      // [m/s]
   std::optional<Eigen::Vector2d> goal_;   // [m] that the guide stands for
   bool cut_off_ = false;
+  bool approaching_ = false;   // likewise of next_
+  bool urgent_ = false;        // the update under way
   double next_time_;           // [s]
   double update_time_ = -1e9;  // [s]
 };

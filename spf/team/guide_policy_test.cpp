@@ -20,6 +20,16 @@ WorldSnapshot on(const OccupancyMap& map) {
   return world;
 }
 
+/// From `time` on, ten times a second; the number of calls until the guide has changed, 0: it has not.
+int refresh_until_done(GuidePolicy& guide, double time, const OccupancyMap& map) {
+  const double before = guide.cost_to_go().cost_to_go(kHere);
+  for (int call = 1; call <= 100; ++call) {
+    guide.refresh(time + 0.1 * (call - 1), on(map), kGoal, kHere);
+    if (guide.cost_to_go().cost_to_go(kHere) != before) return call;
+  }
+  return 0;
+}
+
 TEST(GuidePolicy, LeadsToTheGoalAndFollowsANewOneAtOnce) {
   GuidePolicy guide{AgentParameters{}, {true}, 0.0};
   const OccupancyMap map = empty_map();
@@ -44,7 +54,7 @@ TEST(GuidePolicy, FollowsAMapThatBlocksItsWayAfterOnePeriodAndOneThatDoesNotLate
     const double period = blocks ? GuidePolicy::kPeriod : GuidePolicy::kIdlePeriod;
     guide.refresh(period - 0.05, on(map), kGoal, kHere);
     EXPECT_EQ(guide.cost_to_go().cost_to_go(behind), before) << blocks;
-    guide.refresh(period, on(map), kGoal, kHere);
+    for (int call = 0; call < 60; ++call) guide.refresh(period + 1e-3 * call, on(map), kGoal, kHere);
     EXPECT_NE(guide.cost_to_go().cost_to_go(behind), before) << blocks;
   }
 }
@@ -59,6 +69,32 @@ TEST(GuidePolicy, LeadsAsNearToAWalledInGoalAsAWayDoesWhereTheMethodWantsThat) {
   EXPECT_GT(kRing[2].distance(end), 0.3);
   EXPECT_LT(kRing[2].distance(end), 0.7);
   EXPECT_TRUE(guide.cost_to_go().reachable(kHere));
+}
+
+TEST(GuidePolicy, FollowsAChangedMapInSlicesAndLeadsAsBeforeMeanwhile) {
+  GuidePolicy guide{AgentParameters{}, {true}, 0.0};
+  OccupancyMap map = empty_map();
+  guide.refresh(0.0, on(map), kGoal, kHere);
+  map.add_box({-1.0, -4.0}, {1.0, 4.0});
+  const int calls = refresh_until_done(guide, 1.0, map);
+  EXPECT_GT(calls, 2);
+  EXPECT_LT(calls, 40);
+  CostToGo at_once{AgentParameters{}.guide, AgentParameters{}.robot.radius};
+  at_once.update(map, kGoal, kHere);
+  for (const Eigen::Vector2d& place : {kHere, Eigen::Vector2d{0.0, 4.5}, Eigen::Vector2d{-3.0, 2.0}})
+    EXPECT_EQ(guide.cost_to_go().cost_to_go(place), at_once.cost_to_go(place));
+}
+
+TEST(GuidePolicy, AGoalThatIsWalledInLaterIsApproachedToo) {
+  GuidePolicy guide{AgentParameters{}, {true}, 0.0};
+  guide.refresh(0.0, on(empty_map()), kGoal, kHere);
+  const OccupancyMap map = map_of(kRing);
+  EXPECT_GT(refresh_until_done(guide, 1.0, map), 0);
+  EXPECT_TRUE(guide.cut_off());
+  EXPECT_TRUE(guide.cost_to_go().reachable(kHere));
+  EXPECT_EQ(guide.access(kGoal), GoalAccess::cut_off);
+  for (int call = 0; call < 100; ++call) guide.refresh(20.0 + 0.1 * call, on(empty_map()), kGoal, kHere);
+  EXPECT_FALSE(guide.cut_off());  // it opens again
 }
 
 TEST(GuidePolicy, LeavesAWalledInGoalToAMethodThatStands) {

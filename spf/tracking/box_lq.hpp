@@ -107,6 +107,15 @@ class BoxLqSolver {
   };
   static constexpr int kMaxActive = 40;
   using ActiveVector = std::array<double, kMaxActive>;
+  /// Rows of a symmetric or triangular matrix up to the diagonal.
+  class LowerTriangle {
+   public:
+    double* operator[](std::size_t row) { return values_.data() + row * (row + 1) / 2; }
+    const double* operator[](std::size_t row) const { return values_.data() + row * (row + 1) / 2; }
+
+   private:
+    std::array<double, static_cast<std::size_t>(kMaxActive*(kMaxActive + 1) / 2)> values_;
+  };
 
   void roll_out(const BoxLqProblem& problem, const InputSequence& inputs);
   void compute_gradient(const BoxLqProblem& problem, const StateSequence& states, const InputSequence& inputs,
@@ -157,8 +166,8 @@ class BoxLqSolver {
   // Responses are kept where they were computed; order_ says which belongs to which active bound.
   std::array<Response, kMaxActive + 1> responses_;
   std::array<int, kMaxActive + 1> order_;
-  std::array<ActiveVector, kMaxActive> schur_;         // lower triangle, by active position
-  std::array<ActiveVector, kMaxActive> schur_factor_;  // its Cholesky factor
+  LowerTriangle schur_;         // by active position
+  LowerTriangle schur_factor_;  // its Cholesky factor
 };
 
 }  // namespace spf

@@ -168,7 +168,7 @@ void BoxLqSolver::drop_active(int position) {
 // active bounds that depend on each other to rounding.
 bool BoxLqSolver::factor_schur(int from) {
   for (int i = from; i < active_count_; ++i) {
-    ActiveVector& row = schur_factor_[as_index(i)];
+    double* const row = schur_factor_[as_index(i)];
     for (int j = 0; j <= i; ++j) {
       double sum = schur_[as_index(i)][as_index(j)];
       for (int l = 0; l < j; ++l) sum -= row[as_index(l)] * schur_factor_[as_index(j)][as_index(l)];

@@ -203,41 +203,71 @@ double OccupancyMap::distance(const Eigen::Vector2d& position_world) const {
   return patch_of(position_world, [this](int i, int j) { return node_distance(i, j); }).interpolated();
 }
 
-/// Gradient at a node [1] of the distance to the surface that is nearest to it. Between two surfaces the
-/// distance has a ridge, where a difference over both sides says nothing: there it is that of the side on
-/// which the distance falls more.
-Eigen::Vector2d OccupancyMap::node_slope(int i, int j) const {
-  constexpr double kKink = 0.05;  // [1] of a cell: more is a ridge
-  const double here = node_distance(i, j);
-  const auto along = [&](double before, double after) {
-    const bool ridge = before + after - 2.0 * here < -kKink * frame_.resolution;
-    const double rise = before < after ? here - before : after - here;
-    return (ridge ? rise : 0.5 * (after - before)) / frame_.resolution;
-  };
-  const int low_i = std::max(i - 1, 0), high_i = std::min(i + 1, frame_.width - 1);
-  const int low_j = std::max(j - 1, 0), high_j = std::min(j + 1, frame_.height - 1);
-  return {along(node_distance(low_i, j), node_distance(high_i, j)),
-          along(node_distance(i, low_j), node_distance(i, high_j))};
+/// Distances at the nodes of a cell and at those around them, and what they say of slopes.
+struct OccupancyMap::Surroundings {
+  double value[4][4];  // [along x][along y], the cell's own nodes at 1 and 2
+  double resolution;   // [m]
+
+  /// Gradient at a node [1] of the distance to the surface that is nearest to it. Between two surfaces the
+  /// distance has a ridge, where a difference over both sides says nothing: there it is that of the side on
+  /// which the distance falls more.
+  [[nodiscard]] Eigen::Vector2d slope(int i, int j) const {
+    constexpr double kKink = 0.05;  // [1] of a cell: more is a ridge
+    const double here = value[i][j];
+    const auto along = [&](double before, double after) {
+      const bool ridge = before + after - 2.0 * here < -kKink * resolution;
+      const double rise = before < after ? here - before : after - here;
+      return (ridge ? rise : 0.5 * (after - before)) / resolution;
+    };
+    return {along(value[i - 1][j], value[i + 1][j]), along(value[i][j - 1], value[i][j + 1])};
+  }
+};
+
+OccupancyMap::Surroundings OccupancyMap::surroundings_of(const Patch& patch) const {
+  Surroundings around;
+  around.resolution = frame_.resolution;
+  const int first = patch.node_i[0] - 1;
+  const bool inside = first >= 0 && first + 3 < frame_.width;
+  for (int b = 0; b < 4; ++b) {
+    const int j = std::clamp(patch.node_j[0] - 1 + b, 0, frame_.height - 1);
+    if (!inside) {
+      for (int a = 0; a < 4; ++a)
+        around.value[a][b] = node_distance(std::clamp(first + a, 0, frame_.width - 1), j);
+      continue;
+    }
+    float row[4];
+    for (int a = 0; a < 4; ++a) row[a] = known_node_distance(first + a, j);
+    if (sensed_) sensed_->lower(first, j, row);
+    for (int a = 0; a < 4; ++a) around.value[a][b] = row[a];
+  }
+  return around;
 }
 
 double OccupancyMap::exact_distance(const Eigen::Vector2d& position_world) const {
-  const Patch patch = patch_of(position_world, [this](int i, int j) { return node_distance(i, j); });
-  const double interpolated = patch.interpolated();
+  const Patch patch = patch_of(position_world, [](int, int) { return 0.0; });
+  const Surroundings around = surroundings_of(patch);
+  const int across[2] = {1, 1 + patch.node_i[1] - patch.node_i[0]};
+  const int up[2] = {1, 1 + patch.node_j[1] - patch.node_j[0]};
+  double value[4];
   Eigen::Vector2d slope[4];
   int widest = 0;
   double weight[4];
   for (int k = 0; k < 4; ++k) {
-    slope[k] = node_slope(patch.node_i[k & 1], patch.node_j[k >> 1]);
+    value[k] = around.value[across[k & 1]][up[k >> 1]];
+    slope[k] = around.slope(across[k & 1], up[k >> 1]);
     weight[k] = ((k & 1) != 0 ? patch.x : 1.0 - patch.x) * (k > 1 ? patch.y : 1.0 - patch.y);
     if (weight[k] > weight[widest]) widest = k;
   }
+  const double low_y = value[0] + patch.x * (value[1] - value[0]);
+  const double high_y = value[2] + patch.x * (value[3] - value[2]);
+  const double interpolated = low_y + patch.y * (high_y - low_y);
   // The nodes of either side of the ridge vouch for the surface on their side.
   double sum[2] = {0.0, 0.0};
   double weights[2] = {0.0, 0.0};
   for (int k = 0; k < 4; ++k) {
     const std::size_t side = slope[k].dot(slope[widest]) > 0.0 ? 0 : 1;
     const Eigen::Vector2d offset{patch.x - (k & 1), patch.y - (k >> 1)};
-    sum[side] += weight[k] * (patch.value[k & 1][k >> 1] + frame_.resolution * offset.dot(slope[k]));
+    sum[side] += weight[k] * (value[k] + frame_.resolution * offset.dot(slope[k]));
     weights[side] += weight[k];
   }
   if (!(weights[1] > 0.0)) return interpolated;

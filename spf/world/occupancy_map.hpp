@@ -127,9 +127,10 @@ class OccupancyMap {
 
  private:
   struct Patch;
+  struct Surroundings;
   template <class NodeValue>
   [[nodiscard]] Patch patch_of(const Eigen::Vector2d& position_world, const NodeValue& node_value) const;
-  [[nodiscard]] Eigen::Vector2d node_slope(int i, int j) const;
+  [[nodiscard]] Surroundings surroundings_of(const Patch& patch) const;
   [[nodiscard]] std::shared_ptr<std::vector<float>> writable_layer() const;
   template <class SignedDistance>
   void add_shape(const Eigen::Vector2i& low, const Eigen::Vector2i& high,

@@ -177,17 +177,22 @@ void SensedLayer::cross_cells(const Eigen::Vector2d& sensor_world, const std::ve
   }
   int remaining = std::abs(last.x() - cell.x()) + std::abs(last.y() - cell.y());
   if (beam.returned) --remaining;
+  Tile* tile = nullptr;  // of the cell before
   for (; remaining >= 0; --remaining) {
-    if (frame_.contains(cell.x(), cell.y())) enter_crossing(cell, sensor_world, beams, index);
+    if (frame_.contains(cell.x(), cell.y())) {
+      if (tile == nullptr || tile->first_i != (cell.x() & ~(kTileSide - 1)) ||
+          tile->first_j != (cell.y() & ~(kTileSide - 1)))
+        tile = &tile_at(cell.x(), cell.y());
+      enter_crossing(*tile, cell, sensor_world, beams, index);
+    }
     const int axis = next.x() < next.y() ? 0 : 1;
     cell[axis] += step[axis];
     next[axis] += pitch[axis];
   }
 }
 
-void SensedLayer::enter_crossing(const Eigen::Vector2i& cell, const Eigen::Vector2d& sensor_world,
+void SensedLayer::enter_crossing(Tile& tile, const Eigen::Vector2i& cell, const Eigen::Vector2d& sensor_world,
                                  const std::vector<SensedBeam>& beams, std::size_t index) {
-  Tile& tile = tile_at(cell.x(), cell.y());
   const std::size_t slot = cell_slot(cell.x(), cell.y());
   if (tile.sweep[slot] == sweep_) return;
   std::int16_t& log_odds = tile.log_odds[slot];

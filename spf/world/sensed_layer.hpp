@@ -39,6 +39,18 @@ class SensedLayer {
     const int tile = tile_of_[tile_slot(i, j)];
     return tile < 0 ? max_distance_ : tiles_[static_cast<std::size_t>(tile)].distance[cell_slot(i, j)];
   }
+  /// Lowers each of four values to the distance from its node, (i, j) to (i + 3, j); all inside the frame.
+  void lower(int i, int j, float (&values)[4]) const {
+    const bool in_one_tile = (i & (kTileSide - 1)) <= kTileSide - 4;
+    const int tile = tile_of_[tile_slot(i, j)];
+    if (in_one_tile && tile < 0) return;
+    const float* row =
+        in_one_tile ? &tiles_[static_cast<std::size_t>(tile)].distance[cell_slot(i, j)] : nullptr;
+    for (int k = 0; k < 4; ++k) {
+      const float sensed = row != nullptr ? row[k] : distance(i + k, j);
+      values[k] = sensed < values[k] ? sensed : values[k];
+    }
+  }
   /// Whether beams have crossed cell (i, j) and its eight neighbours, each more than once.
   [[nodiscard]] bool free_around(int i, int j) const;
   /// Whether a cell at most `reach` rows and columns from (i, j) speaks for "free", and none for "occupied".
@@ -86,7 +98,7 @@ class SensedLayer {
   void enter_return(const Eigen::Vector2d& end_world);
   void cross_cells(const Eigen::Vector2d& sensor_world, const std::vector<SensedBeam>& beams,
                    std::size_t index);
-  void enter_crossing(const Eigen::Vector2i& cell, const Eigen::Vector2d& sensor_world,
+  void enter_crossing(Tile& tile, const Eigen::Vector2i& cell, const Eigen::Vector2d& sensor_world,
                       const std::vector<SensedBeam>& beams, std::size_t index);
   void stamp(const Hit& hit);
   void forget(const std::vector<Hit>& vanished);

@@ -14,6 +14,7 @@ constexpr double kOffMiddle =
     0.8;  // [1] of the room beside the robot: the rest is for not being in the middle
 constexpr double kNearlyAsFar = 0.9;   // [1] of the most standard deviations from a surface
 constexpr double kMostParts = 1e6;     // of a leg
+constexpr std::size_t kCorners = 64;   // of a way: more have to be allocated
 constexpr double kLookAhead = 0.5;     // [1] of the radius
 constexpr std::size_t kTurnMarks = 3;  // looks before and behind a turn
 constexpr double kStraight = 0.1;      // [rad]
@@ -31,7 +32,11 @@ double way_sigma(double static_sigma, double position_sigma, double speed, doubl
 }
 
 PassageSpeed::PassageSpeed(const SpaceTimeParameters& parameters, const RobotParameters& robot)
-    : parameters_{parameters}, robot_{robot} {}
+    : parameters_{parameters}, robot_{robot} {
+  way_.reserve(kCorners);
+  legs_.reserve(kCorners);
+  marks_.reserve(kCorners + static_cast<std::size_t>(std::min(reach() / (kSpacing * robot_.radius), 1e4)));
+}
 
 PassageSpeed::Room PassageSpeed::room_at(const PlanRequest& request,
                                          const Eigen::Vector2d& position_world) const {
@@ -66,17 +71,21 @@ double PassageSpeed::straight_speed(const PlanRequest& request, double room) con
   return robot_.max_speed * std::clamp(pace, kCreep, 1.0);
 }
 
-/// Calls look(position) along the way until it returns false, as far as the robot can come within the
-/// horizon and then stop.
+/// As far as the robot can come within the horizon and then stop [m].
+double PassageSpeed::reach() const {
+  return robot_.max_speed * (parameters_.horizon + robot_.max_speed / robot_.max_acceleration);
+}
+
+/// Calls look(position) along the way until it returns false, as far as the robot can come.
 template <class Look>
 void PassageSpeed::look_along(const Look& look) const {
   const double spacing = kSpacing * robot_.radius;
-  const double reach = robot_.max_speed * (parameters_.horizon + robot_.max_speed / robot_.max_acceleration);
+  const double far = reach();
   double ahead = 0.0;  // of the last look
-  for (std::size_t i = 1; i < way_.size() && ahead < reach; ++i) {
+  for (std::size_t i = 1; i < way_.size() && ahead < far; ++i) {
     const Eigen::Vector2d leg = way_[i] - way_[i - 1];
     const int parts = std::max(1, static_cast<int>(std::ceil(std::min(leg.norm() / spacing, kMostParts))));
-    for (int part = 1; part <= parts && ahead < reach; ++part) {
+    for (int part = 1; part <= parts && ahead < far; ++part) {
       if (!look(Eigen::Vector2d{way_[i - 1] + leg * (static_cast<double>(part) / parts)})) return;
       ahead += leg.norm() / parts;
     }
@@ -102,6 +111,7 @@ void PassageSpeed::prepare(const PlanRequest& request) {
                       straight_speed(request, room.least()), room});
     return true;
   });
+  keep_legs();
   slow_down_in_turns();
   stop_before_what_stands();
   for (std::size_t k = marks_.size(); k-- > 1;) {
@@ -109,6 +119,18 @@ void PassageSpeed::prepare(const PlanRequest& request) {
     const double braked =
         std::sqrt(marks_[k].speed * marks_[k].speed + 2.0 * kBraking * robot_.max_acceleration * step);
     marks_[k - 1].speed = std::min(marks_[k - 1].speed, braked);
+  }
+}
+
+void PassageSpeed::keep_legs() {
+  legs_.clear();
+  double ahead = 0.0;
+  for (std::size_t i = 1; i < way_.size() && ahead < reach(); ++i) {
+    const Eigen::Vector2d step = way_[i] - way_[i - 1];
+    const double length = step.norm();
+    if (!(length > 0.0)) continue;
+    legs_.push_back({way_[i - 1], step / length, length});
+    ahead += length;
   }
 }
 
@@ -147,33 +169,23 @@ void PassageSpeed::stop_before_what_stands() {
 std::optional<Eigen::Vector2d> PassageSpeed::direction(const Eigen::Vector2d& position_world,
                                                        double speed) const {
   if (!limits()) return std::nullopt;
-  double nearest = robot_.radius;
-  std::size_t leg = 0;
+  double nearest = robot_.radius * robot_.radius;
+  auto leg = legs_.end();
   double along = 0.0;  // [m] from the leg's start to the nearest place
-  for (std::size_t i = 1; i < way_.size(); ++i) {
-    const Eigen::Vector2d offset = position_world - way_[i - 1];
-    const Eigen::Vector2d step = way_[i] - way_[i - 1];
-    const double length = step.norm();
-    const double at = length > 0.0 ? std::clamp(offset.dot(step) / length, 0.0, length) : 0.0;
-    const double gap = (offset - (length > 0.0 ? at / length : 0.0) * step).norm();
+  for (auto trial = legs_.begin(); trial != legs_.end(); ++trial) {
+    const Eigen::Vector2d offset = position_world - trial->from_world;
+    const double at = std::clamp(offset.dot(trial->direction_world), 0.0, trial->length);
+    const double gap = (offset - at * trial->direction_world).squaredNorm();
     if (gap >= nearest) continue;
     nearest = gap;
-    leg = i;
+    leg = trial;
     along = at;
   }
-  if (leg == 0) return std::nullopt;
+  if (leg == legs_.end()) return std::nullopt;
   double left =
       along + std::max(kLookAhead * robot_.radius, kTurnShare * speed * speed / robot_.max_acceleration);
-  Eigen::Vector2d target = way_.back();
-  for (std::size_t i = leg; i < way_.size(); ++i) {
-    const Eigen::Vector2d step = way_[i] - way_[i - 1];
-    const double length = step.norm();
-    if (left < length) {
-      target = way_[i - 1] + left / length * step;
-      break;
-    }
-    left -= length;
-  }
+  for (; left >= leg->length && std::next(leg) != legs_.end(); ++leg) left -= leg->length;
+  const Eigen::Vector2d target = leg->from_world + std::min(left, leg->length) * leg->direction_world;
   const Eigen::Vector2d onwards = target - position_world;
   const double length = onwards.norm();
   if (!(length > 1e-6)) return std::nullopt;

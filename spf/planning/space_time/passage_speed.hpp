@@ -61,6 +61,13 @@ class PassageSpeed {
     double speed;  // [m/s]
     Room room;
   };
+  struct Leg {
+    Eigen::Vector2d from_world;
+    Eigen::Vector2d direction_world;
+    double length;  // [m]
+  };
+  [[nodiscard]] double reach() const;
+  void keep_legs();
   [[nodiscard]] Room room_at(const PlanRequest& request, const Eigen::Vector2d& position_world) const;
   [[nodiscard]] double straight_speed(const PlanRequest& request, double room) const;
   template <class Look>
@@ -71,6 +78,7 @@ class PassageSpeed {
   SpaceTimeParameters parameters_;
   RobotParameters robot_;
   std::vector<Eigen::Vector2d> way_;
+  std::vector<Leg> legs_;    // of the way, as far as the robot can come
   std::vector<Mark> marks_;  // by falling cost, at most a third of the radius apart
   const StandingDisc* blocker_ = nullptr;
   double stop_cost_ = 0.0;  // [m] where the robot stops before something that stands; 0: nothing does

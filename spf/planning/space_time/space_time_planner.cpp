@@ -14,8 +14,8 @@ Eigen::Vector2d between(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
   return (1.0 - share) * from + share * to;
 }
 
-/// Calls look(position, speed) along a roll-out and along the way on which the robot then stops, so often
-/// that no surface lies between two places that are both free of it.
+/// Calls look(position, speed) along a roll-out and along the way on which the robot then stops, until it
+/// returns false, so often that no surface lies between two places that are both free of it.
 template <class Look>
 void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spacing, const Look& look) {
   const auto look_between = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed,
@@ -23,14 +23,15 @@ void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spa
     const int parts = std::max(least_parts, static_cast<int>(std::ceil((to - from).norm() / spacing)));
     for (int i = 1; i <= parts; ++i) {
       const double share = static_cast<double>(i) / parts;
-      look(between(from, to, share), speed + share * (end_speed - speed));
+      if (!look(between(from, to, share), speed + share * (end_speed - speed))) return false;
     }
+    return true;
   };
   double speed = roll_out.velocity_world[0].norm();
   for (int k = 1; k <= roll_out.steps; ++k) {
     const auto at = static_cast<std::size_t>(k);
     const double next = roll_out.velocity_world[at].norm();
-    look_between(roll_out.position_world[at - 1], roll_out.position_world[at], speed, next, 1);
+    if (!look_between(roll_out.position_world[at - 1], roll_out.position_world[at], speed, next, 1)) return;
     speed = next;
   }
   look_between(roll_out.position_world[static_cast<std::size_t>(roll_out.steps)], stop, speed, 0.0, 2);
@@ -72,26 +73,32 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
 
 /// Static surfaces: the probability that the own error across the way reaches one. A slow robot keeps its way
 /// more exactly, so it may pass where a fast one may not. It is not discounted: a wall
-/// will still be there, and a discounted risk would be put off for ever.
+/// will still be there, and a discounted risk would be put off for ever. Not exact from `enough` on.
 double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
-                                        const PlanRequest& request) const {
+                                        const PlanRequest& request, double enough) const {
   const OccupancyMap& map = *request.world.map;
   const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
   const double full_softness = std::hypot(parameters_.static_sigma, request.position_sigma);
   double least_clearance = std::numeric_limits<double>::infinity();
   double least_sigmas = kSurfaceSigmas;
+  double chance = 0.0;
   look_along(roll_out, stop, robot_.radius, [&](const Eigen::Vector2d& position, double speed) {
     double clearance = map.distance(position) - wanted_clearance;
-    if (clearance > kSurfaceSigmas * full_softness) return;
+    if (clearance > kSurfaceSigmas * full_softness) return true;
+    const double sigma = way_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
+    // exact_distance() is no less.
+    if (clearance >= 0.0 && clearance >= least_sigmas * sigma) return true;
     clearance = map.exact_distance(position) - wanted_clearance;
     least_clearance = std::min(least_clearance, clearance);
-    const double sigma = way_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
     least_sigmas = std::min(least_sigmas, clearance / sigma);
+    if (least_sigmas >= kSurfaceSigmas) return true;
+    // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
+    const double depth = std::max(0.0, -least_clearance) / wanted_clearance;
+    const double price = least_sigmas > kNoRoomSigmas ? surface_price_ : 1.0;
+    chance = std::max(chance, price * normal_tail(least_sigmas) + depth);
+    return chance <= enough;
   });
-  // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
-  const double depth = std::max(0.0, -least_clearance) / wanted_clearance;
-  if (least_sigmas >= kSurfaceSigmas) return 0.0;
-  return (least_sigmas > kNoRoomSigmas ? surface_price_ : 1.0) * normal_tail(least_sigmas) + depth;
+  return chance;
 }
 
 SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
@@ -126,10 +133,11 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   const Eigen::Vector2d& velocity = roll_out.velocity_world[end];
   const Eigen::Vector2d stop = tail + velocity * (velocity.norm() / (2.0 * settings_.max_acceleration));
   // By the time a new plan can brake the robot, it must be able to stand within what it has seen.
-  const double static_chance =
-      surface_chance(roll_out, stop, request) +
-      sight_.blind_share(roll_out.position_world[soon], roll_out.velocity_world[soon]);
-  const double left = (enough - score.time) / std::max(parameters_.collision_cost, 1e-9) - static_chance;
+  double left = (enough - score.time) / std::max(parameters_.collision_cost, 1e-9);
+  double static_chance = surface_chance(roll_out, stop, request, left);
+  if (static_chance <= left)
+    static_chance += sight_.blind_share(roll_out.position_world[soon], roll_out.velocity_world[soon]);
+  left -= static_chance;
   score.risk = static_chance * parameters_.collision_cost;
   if (left < 0.0) return score;
   const double moving_chance = risk_.along(roll_out.position_world, roll_out.steps, stop, left, &score.worst);

@@ -38,7 +38,7 @@ class SpaceTimePlanner final : public Planner {
   };
   [[nodiscard]] Score score(const RollOut& roll_out, const PlanRequest& request, double enough) const;
   [[nodiscard]] double surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
-                                      const PlanRequest& request) const;
+                                      const PlanRequest& request, double enough) const;
   void consider(const MotionPrimitive& primitive, const PlanRequest& request, PlanResult& result,
                 double bonus = 0.0);
   void lose_patience(const PlanRequest& request);
