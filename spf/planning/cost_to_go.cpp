@@ -77,7 +77,12 @@ CostToGo::Cell CostToGo::cell_of(const Eigen::Vector2d& position_world) const {
   return cell;
 }
 
+std::array<std::int32_t, 4> CostToGo::nodes_around(const Eigen::Vector2d& position_world) const {
+  return cell_of(position_world).node;
+}
+
 double CostToGo::cost_to_go(const Eigen::Vector2d& position_world) const {
+  if (const CostToGo* far = beyond(position_world)) return far->cost_to_go(position_world);
   const Cell cell = cell_of(position_world);
   double cost = cell.outside;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -87,6 +92,7 @@ double CostToGo::cost_to_go(const Eigen::Vector2d& position_world) const {
 }
 
 Eigen::Vector2d CostToGo::cost_gradient(const Eigen::Vector2d& position_world) const {
+  if (const CostToGo* far = beyond(position_world)) return far->cost_gradient(position_world);
   const Cell cell = cell_of(position_world);
   if (cell.outside > 0.0) return cell.outward;
   const double per_metre = 1.0 / window_.resolution;
@@ -171,6 +177,7 @@ void CostToGo::walk(const Eigen::Vector2d& position_world, const Visit& visit) c
 
 Eigen::Vector2d CostToGo::descend(const Eigen::Vector2d& position_world, double distance) const {
   if (!(distance > 0.0)) return position_world;
+  if (const CostToGo* far = beyond(position_world)) return far->descend(position_world, distance);
   Eigen::Vector2d here = position_world - window_.origin_world;
   double remaining = distance;
   walk(position_world, [&](const Eigen::Vector2d& corner) {
@@ -188,6 +195,10 @@ Eigen::Vector2d CostToGo::descend(const Eigen::Vector2d& position_world, double 
 
 void CostToGo::shortest_path(const Eigen::Vector2d& position_world,
                              std::vector<Eigen::Vector2d>& corners_world) const {
+  if (const CostToGo* far = beyond(position_world)) {
+    far->shortest_path(position_world, corners_world);
+    return;
+  }
   corners_world.clear();
   walk(position_world, [&](const Eigen::Vector2d& corner) {
     corners_world.push_back(window_.origin_world + corner);
@@ -196,6 +207,7 @@ void CostToGo::shortest_path(const Eigen::Vector2d& position_world,
 }
 
 bool CostToGo::reachable(const Eigen::Vector2d& position_world) const {
+  if (const CostToGo* far = beyond(position_world)) return far->reachable(position_world);
   const Cell cell = cell_of(position_world);
   return cell.outside == 0.0 && std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t index) {
            return !on_blocked_ground(node_at(index));
@@ -211,7 +223,7 @@ bool CostToGo::window_covers(const Eigen::Vector2d& position_world) const {
 bool CostToGo::outdated(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                         const Eigen::Vector2d& robot_world) const {
   return !ready() || goal_world != goal_asked_ || map.revision() != map_revision_ ||
-         (!whole_map_ && !window_covers(robot_world));
+         (!whole_map_ && !window_covers(robot_world)) || leaves_near_field(robot_world);
 }
 
 }  // namespace spf

@@ -9,8 +9,10 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -56,11 +58,16 @@ class CostToGo {
                          const Eigen::Vector2d& robot_world);
   /// update() in slices: begins, and is done when advance() says so. Until then there is no cost-to-go.
   void begin(const OccupancyMap& map, const Eigen::Vector2d& goal_world, const Eigen::Vector2d& robot_world);
+  /// For begin(): takes the far field of another, for the same goal, rather than to compute one, as long as
+  /// that is not too old. A robot that moves on needs but a new near field.
+  void share_far_field(const CostToGo& other);
   /// Does about this much work, in units of some 20 ns on a processor of 2020: counted, not timed, so that
   /// the same run gives the same slices. The map may have changed since the last slice; what changed behind
   /// the wavefront is not seen before the next update. True when done.
   bool advance(const OccupancyMap& map, std::int64_t work);
   [[nodiscard]] bool under_way() const { return progress_.stage != Stage::done; }
+  /// Whether the robot needs another near field soon.
+  [[nodiscard]] bool leaves_near_field(const Eigen::Vector2d& robot_world) const;
   /// Number of nodes.
   [[nodiscard]] std::int64_t size() const { return window_count(); }
   /// Whether update() with these arguments could change anything: new goal, changed map, robot out of the
@@ -82,7 +89,8 @@ class CostToGo {
   [[nodiscard]] Eigen::Vector2d direction(const Eigen::Vector2d& position_world) const;
   /// The position after `distance` metres along the shortest path, at most the goal.
   [[nodiscard]] Eigen::Vector2d descend(const Eigen::Vector2d& position_world, double distance) const;
-  /// The corners of the shortest path, from the position itself to goal_used().
+  /// The corners of the shortest path, from the position itself to goal_used() or, where that is far, to the
+  /// first corner beyond the near field.
   void shortest_path(const Eigen::Vector2d& position_world,
                      std::vector<Eigen::Vector2d>& corners_world) const;
   /// Whether the straight way between two positions keeps the clearance that paths must keep, but for half a
@@ -132,7 +140,9 @@ class CostToGo {
   };
   /// What advance() does next.
   enum class Stage : std::uint8_t {
+    far_field,
     mark_free_nodes,
+    seed,
     propagate,
     find_reached,  // the nodes that the wavefront has reached ...
     find_nearest,  // ... the nearest of them to every other node ...
@@ -145,6 +155,7 @@ class CostToGo {
     Stage stage = Stage::done;
     std::int32_t next = 0;                  // node of the stage, or place in the queue
     bool everywhere = false;                // the window is the whole map
+    bool fine = false;                      // however far the goal is
     Eigen::Vector2d robot_world{0.0, 0.0};  // [m]
     std::int64_t limit = 0;                 // of work, in this slice
   };
@@ -179,8 +190,16 @@ class CostToGo {
   template <class Visit>
   void for_neighbours(std::int32_t index, const Visit& visit) const;
 
+  [[nodiscard]] double spacing_on(const OccupancyMap& map) const;
   void set_window(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
   void open_window(const OccupancyMap& map);
+  [[nodiscard]] bool splits(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+  void clear_nodes();
+  bool advance_far_field(const OccupancyMap& map);
+  [[nodiscard]] bool shares_far_field(const OccupancyMap& map, double resolution) const;
+  [[nodiscard]] std::int32_t edge_node(std::int32_t place) const;
+  void seed_from_far_field(const OccupancyMap& map, std::int32_t index);
+  [[nodiscard]] bool neighbours_see_each_other() const { return !narrow() && !is_far_field_; }
   void enter(Stage stage);
   bool run_stage(const OccupancyMap& map);
   [[nodiscard]] bool tired() const { return work_ >= progress_.limit; }
@@ -190,7 +209,7 @@ class CostToGo {
   bool propagate(const OccupancyMap& map);
   void end_propagation(const OccupancyMap& map);
   void seed(const OccupancyMap& map);
-  [[nodiscard]] bool between_viewers(std::int32_t index) const;
+  [[nodiscard]] bool between_viewers(const OccupancyMap& map, std::int32_t index) const;
   void push(std::int32_t index);
   void offer(std::int32_t index, const Node& parent);
   void find_parent_in_view(const OccupancyMap& map, std::int32_t index, std::optional<double> extra);
@@ -213,6 +232,7 @@ class CostToGo {
   [[nodiscard]] Node parent_around_bend(const OccupancyMap& map, std::int32_t index);
   [[nodiscard]] bool wavefront_reached(const Eigen::Vector2d& position_world) const;
   [[nodiscard]] bool settled_at(std::int32_t index) const;
+  [[nodiscard]] bool free_at(std::int32_t index) const;
   void enter_reached(std::int32_t index);
   bool find_nearest();
   void extend(std::int32_t index);
@@ -223,6 +243,8 @@ class CostToGo {
   [[nodiscard]] std::optional<Eigen::Vector2d> nearest_free_position(const OccupancyMap& map,
                                                                      const Eigen::Vector2d& wanted) const;
   [[nodiscard]] bool window_covers(const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] const CostToGo* beyond(const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] std::array<std::int32_t, 4> nodes_around(const Eigen::Vector2d& position_world) const;
 
   CostToGoParameters parameters_;
   double clearance_;        // [m] of the robot's centre
@@ -243,6 +265,10 @@ class CostToGo {
       parent_of_;  // by node, an index into parents_; empty: parents_ is by node itself
   Wavefront wavefront_;
   Progress progress_;
+  // Where the goal is far there are two fields: this one around the robot, and a coarse one over all of the
+  // way, from which it starts at its window's edge.
+  std::shared_ptr<CostToGo> far_field_;  // null: none; shared by the fields of one robot once it is done
+  bool is_far_field_ = false;
   mutable std::int64_t work_ = 0;  // done in this slice
 };
 

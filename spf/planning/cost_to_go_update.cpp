@@ -45,9 +45,17 @@ void CostToGo::enter(Stage stage) {
 /// False when the work of this slice is done before the stage is.
 bool CostToGo::run_stage(const OccupancyMap& map) {
   switch (progress_.stage) {
+    case Stage::far_field:
+      return advance_far_field(map);
     case Stage::mark_free_nodes:
       if (!for_nodes(window_count(), [&](std::int32_t index) { mark_free_node(map, index); })) return false;
-      seed(map);
+      if (window_covers(goal_used_)) seed(map);
+      enter(!far_field_ ? Stage::propagate : Stage::seed);
+      return true;
+    case Stage::seed:
+      if (!for_nodes(2 * (window_.width + window_.height - 2),
+                     [&](std::int32_t place) { seed_from_far_field(map, edge_node(place)); }))
+        return false;
       enter(Stage::propagate);
       return true;
     case Stage::propagate:
@@ -84,12 +92,22 @@ bool CostToGo::run_stage(const OccupancyMap& map) {
 }
 
 /// The window is the box around goal and robot with some room or, where no path was found in that, all of the
-/// map.
+/// map. Where that is too large, the box around the robot, after a coarse field over all.
 void CostToGo::open_window(const OccupancyMap& map) {
   const Eigen::Vector2d room =
       Eigen::Vector2d::Constant(progress_.everywhere ? 1e9 : parameters_.window_margin);
-  set_window(map, goal_used_.cwiseMin(progress_.robot_world) - room,
-             goal_used_.cwiseMax(progress_.robot_world) + room);
+  const Eigen::Vector2d low = goal_used_.cwiseMin(progress_.robot_world) - room;
+  const Eigen::Vector2d high = goal_used_.cwiseMax(progress_.robot_world) + room;
+  if (splits(map, low, high)) {
+    enter(Stage::far_field);
+    return;
+  }
+  far_field_.reset();
+  set_window(map, low, high);
+  clear_nodes();
+}
+
+void CostToGo::clear_nodes() {
   const std::size_t count = static_cast<std::size_t>(window_count());
   wavefront_.state.resize(count);
   wavefront_.surcharge.assign(count, 0.0F);
@@ -102,6 +120,12 @@ void CostToGo::open_window(const OccupancyMap& map) {
 
 void CostToGo::end_propagation(const OccupancyMap& map) {
   const bool reached = wavefront_reached(progress_.robot_world);
+  if (!reached && far_field_) {  // it may be too old, or too coarse
+    progress_.fine = far_field_->map_revision_ >= map_revision_;
+    far_field_.reset();
+    open_window(map);
+    return;
+  }
   if (!reached && !whole_map_ && !progress_.everywhere) {
     progress_.everywhere = true;
     open_window(map);
@@ -120,16 +144,21 @@ void CostToGo::end_propagation(const OccupancyMap& map) {
   enter(Stage::find_reached);
 }
 
+/// Two free nodes must not be neighbours across a wall, however thin, so their distance stays below 2
+/// clearance, diagonally and where either moves by half a spacing; but for a far field, which looks.
+double CostToGo::spacing_on(const OccupancyMap& map) const {
+  if (is_far_field_) return parameters_.resolution;
+  const double safe_spacing =
+      least_clearance_ > 0.0 ? (narrow() ? 0.9 : 1.4) * least_clearance_ : parameters_.resolution;
+  return std::max(std::min(parameters_.resolution, safe_spacing), map.frame().resolution);
+}
+
 // Coarse nodes on the part of the map that the rectangle covers.
 void CostToGo::set_window(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   const GridFrame& frame = map.frame();
   const Eigen::Vector2d map_low = frame.origin_world;
   const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
-  // Two free nodes must not be neighbours across a wall, however thin, so their distance stays below 2
-  // clearance, diagonally and where either moves by half a spacing.
-  const double safe_spacing =
-      least_clearance_ > 0.0 ? (narrow() ? 0.9 : 1.4) * least_clearance_ : parameters_.resolution;
-  const double spacing = std::max(std::min(parameters_.resolution, safe_spacing), frame.resolution);
+  const double spacing = spacing_on(map);
   // Nodes lie on multiples of the spacing from the map's corner, so that they do not move with the window.
   const auto snapped = [&](const Eigen::Vector2d& corner) {
     const Eigen::Vector2d inside = corner.cwiseMax(map_low).cwiseMin(map_high);

@@ -73,7 +73,7 @@ bool CostToGo::propagate(const OccupancyMap& map) {
     std::uint8_t& state = wavefront_.state[static_cast<std::size_t>(entry.node)];
     Node& node = wavefront_.nodes[static_cast<std::size_t>(entry.node)];
     if (state == settled || entry.cost > own_cost(node, entry.node)) continue;  // an older, costlier entry
-    if (state == trusted && !between_viewers(entry.node)) {
+    if (state == trusted && !between_viewers(map, entry.node)) {
       const Eigen::Vector2d to_parent{node.parent_x, node.parent_y};
       const std::optional<double> extra = view(map, local_position(entry.node), to_parent);
       if (!extra || *extra > 0.0) {
@@ -93,9 +93,10 @@ bool CostToGo::propagate(const OccupancyMap& map) {
 
 // Whether the line from a node to its parent passes between two neighbours that see the same parent. Nothing
 // fits between their lines of sight: they are less than 1.4 clearance apart and an inflated surface is 2
-// clearance wide. Saves most line-of-sight checks. Where the first step may cost more than its length the
-// line has to be looked at all the same.
-bool CostToGo::between_viewers(std::int32_t index) const {
+// clearance wide. (Of a far field the neighbours have to be in view, too; what is smaller than its cells may
+// be missed.) Saves most line-of-sight checks. Where the first step may cost more than its length the line
+// has to be looked at all the same.
+bool CostToGo::between_viewers(const OccupancyMap& map, std::int32_t index) const {
   if (narrow() && wavefront_.dear[static_cast<std::size_t>(index)] != 0) return false;
   const Node& node = wavefront_.nodes[static_cast<std::size_t>(index)];
   const Eigen::Vector2d to_parent = Eigen::Vector2d{node.parent_x, node.parent_y} - local_position(index);
@@ -112,7 +113,8 @@ bool CostToGo::between_viewers(std::int32_t index) const {
     return wavefront_.state[static_cast<std::size_t>(neighbour)] == settled &&
            other.parent_node == node.parent_node && other.parent_x == node.parent_x &&
            other.parent_y == node.parent_y &&
-           wavefront_.surcharge[static_cast<std::size_t>(neighbour)] == 0.0F;
+           wavefront_.surcharge[static_cast<std::size_t>(neighbour)] == 0.0F &&
+           (!is_far_field_ || view(map, local_position(index), local_position(neighbour)));
   };
   constexpr double kAlong = 1e-6;  // on a row or column the diagonal neighbour does not matter
   const bool straight = x > y ? sees_same(column, 0) : sees_same(0, row);
@@ -186,9 +188,10 @@ void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index, 
     if (wavefront_.state[static_cast<std::size_t>(next)] != settled) return;
     const Eigen::Vector2d next_position = local_position(next);
     const Node beside = parent_at(next, next_position);
-    if (!narrow())
+    if (neighbours_see_each_other())
       take(beside, 0.0);
-    else if (!try_parent(beside) && cost_at(beside, here) < lowest && bend_between(map, here, next_position))
+    else if (!try_parent(beside) && narrow() && cost_at(beside, here) < lowest &&
+             bend_between(map, here, next_position))
       try_parent(parent_around_bend(map, next));
     // The corner itself lies between nodes, this one and the last in view, at the clearance.
     for (const Eigen::Vector2d& near : {next_position, Eigen::Vector2d{0.5 * (next_position + here)}}) {
@@ -221,6 +224,10 @@ void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index, 
 CostToGo::Node CostToGo::parent_at(std::int32_t index, const Eigen::Vector2d& local) const {
   const double cost = cost_at(wavefront_.nodes[static_cast<std::size_t>(index)], local);
   return {static_cast<float>(local.x()), static_cast<float>(local.y()), static_cast<float>(cost), index};
+}
+
+bool CostToGo::free_at(std::int32_t index) const {
+  return wavefront_.state[static_cast<std::size_t>(index)] != blocked;
 }
 
 bool CostToGo::settled_at(std::int32_t index) const {

@@ -50,6 +50,7 @@ void GuidePolicy::refresh(double time, const WorldSnapshot& world, const Eigen::
   if (!next_.under_way()) {
     if (!is_due(next_time_, time) || !wants_update(time, world, here)) return;
     next_.set_standing(standing_, max_speed_);
+    next_.share_far_field(cost_to_go_);
     next_.begin(map, goal_world, here);
     approaching_ = false;
     update_time_ = time;
@@ -68,7 +69,7 @@ bool GuidePolicy::wants_update(double time, const WorldSnapshot& world, const Ei
   urgent_ = differ(cost_to_go_.standing(), standing_);
   if (urgent_) return true;
   // What was newly sensed off the path makes no other path shorter: only one that is blocked cannot wait.
-  urgent_ = !cut_off_ && !path_clear(*world.map, here);
+  urgent_ = !cut_off_ && (!path_clear(*world.map, here) || cost_to_go_.leaves_near_field(here));
   if (!urgent_ && !is_due(update_time_ + kIdlePeriod, time)) return false;
   return cut_off_ || cost_to_go_.outdated(*world.map, *goal_, here);
 }

@@ -8,7 +8,7 @@
 namespace spf {
 namespace {
 
-constexpr double kRounding = 1e-9;  // sums of 30 steps of about 0.1 m
+constexpr double kRollOutRounding = 1e-9;  // sums of 30 steps of about 0.1 m
 
 class MotionPrimitiveTest : public ::testing::Test {
  protected:
@@ -35,8 +35,8 @@ TEST_F(MotionPrimitiveTest, KeepsSpeedAndAccelerationLimits) {
     head.velocity_world = 0.7 * Eigen::Vector2d{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
     roll_out(random_manoeuvre(random), head, guide, settings, result);
     const Trajectory trajectory = to_trajectory(result, 5.0, settings);
-    EXPECT_LE(trajectory.max_speed(), settings.max_speed + kRounding);
-    EXPECT_LE(trajectory.max_acceleration(), settings.max_acceleration + kRounding);
+    EXPECT_LE(trajectory.max_speed(), settings.max_speed + kRollOutRounding);
+    EXPECT_LE(trajectory.max_acceleration(), settings.max_acceleration + kRollOutRounding);
   }
 }
 
@@ -51,7 +51,7 @@ TEST_F(MotionPrimitiveTest, TrajectoryPassesThroughTheSteps) {
     for (int k = 0; k <= result.steps; ++k) {
       const auto at = static_cast<std::size_t>(k);
       // The last step itself may be the end of the trajectory, where it is at rest.
-      EXPECT_LT((trajectory.position(5.0 + 0.1 * k) - result.position_world[at]).norm(), kRounding);
+      EXPECT_LT((trajectory.position(5.0 + 0.1 * k) - result.position_world[at]).norm(), kRollOutRounding);
     }
   }
 }
@@ -60,7 +60,7 @@ TEST_F(MotionPrimitiveTest, EndsStanding) {
   roll_out({{0.0, 1.0}, 9.0, MotionPrimitive::Then::hold}, FlatState{}, guide, settings, result);
   const Trajectory trajectory = to_trajectory(result, 0.0, settings);
   EXPECT_GT(trajectory.state(2.9).velocity_world.norm(), 0.99);
-  EXPECT_NEAR(trajectory.end_time(), 4.0, kRounding);  // 3 s and 1 s to brake
+  EXPECT_NEAR(trajectory.end_time(), 4.0, kRollOutRounding);  // 3 s and 1 s to brake
   EXPECT_EQ(trajectory.state(4.1).velocity_world.norm(), 0.0);
 }
 
