@@ -55,6 +55,8 @@ void GuidePolicy::refresh(double time, const WorldSnapshot& world, const Eigen::
     approaching_ = false;
     update_time_ = time;
     next_time_ = time + kPeriod;
+  } else if (!urgent_) {
+    urgent_ = hurries(map, here);
   }
   go_on(map, here);
 }
@@ -69,9 +71,14 @@ bool GuidePolicy::wants_update(double time, const WorldSnapshot& world, const Ei
   urgent_ = differ(cost_to_go_.standing(), standing_);
   if (urgent_) return true;
   // What was newly sensed off the path makes no other path shorter: only one that is blocked cannot wait.
-  urgent_ = !cut_off_ && (!path_clear(*world.map, here) || cost_to_go_.leaves_near_field(here));
+  urgent_ = hurries(*world.map, here);
   if (!urgent_ && !is_due(update_time_ + kIdlePeriod, time)) return false;
   return cut_off_ || cost_to_go_.outdated(*world.map, *goal_, here);
+}
+
+/// Whether the robot cannot go on as before for long.
+bool GuidePolicy::hurries(const OccupancyMap& map, const Eigen::Vector2d& here) {
+  return !cut_off_ && (cost_to_go_.leaves_near_field(here) || !path_clear(map, here));
 }
 
 /// A new goal: the robot needs the guide at once.

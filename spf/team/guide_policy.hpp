@@ -60,6 +60,7 @@ class GuidePolicy {
   void go_on(const OccupancyMap& map, const Eigen::Vector2d& here);
   [[nodiscard]] bool goes_round() const;
   [[nodiscard]] bool wants_update(double time, const WorldSnapshot& world, const Eigen::Vector2d& here);
+  [[nodiscard]] bool hurries(const OccupancyMap& map, const Eigen::Vector2d& here);
   [[nodiscard]] bool path_clear(const OccupancyMap& map, const Eigen::Vector2d& here);
   [[nodiscard]] Eigen::Vector2d last_free_position(const CostToGo& guide, const OccupancyMap& map,
                                                    const Eigen::Vector2d& here);

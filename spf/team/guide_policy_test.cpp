@@ -85,6 +85,25 @@ TEST(GuidePolicy, FollowsAChangedMapInSlicesAndLeadsAsBeforeMeanwhile) {
     EXPECT_EQ(guide.cost_to_go().cost_to_go(place), at_once.cost_to_go(place));
 }
 
+TEST(GuidePolicy, HurriesWhenTheWayIsBlockedWhileAnUpdateIsUnderWay) {
+  int calls[2];
+  for (const bool blocks : {false, true}) {
+    GuidePolicy guide{AgentParameters{}, {true}, 0.0};
+    OccupancyMap map = empty_map();
+    guide.refresh(0.0, on(map), kGoal, kHere);
+    map.add_box({-4.5, 1.0}, {-3.5, 8.0});
+    guide.refresh(GuidePolicy::kIdlePeriod, on(map), kGoal, kHere);
+    const Eigen::Vector2d behind{-9.0, 4.0};  // from where the way leads round that box
+    const double before = guide.cost_to_go().cost_to_go(behind);
+    if (blocks) map.add_box({-1.0, -1.0}, {1.0, 1.0});
+    int& count = calls[blocks ? 1 : 0] = 1;
+    for (; count < 100 && guide.cost_to_go().cost_to_go(behind) == before; ++count)
+      guide.refresh(GuidePolicy::kIdlePeriod + 0.01 * count, on(map), kGoal, kHere);
+  }
+  EXPECT_LT(calls[0], 100);
+  EXPECT_LT(calls[1], calls[0]);
+}
+
 TEST(GuidePolicy, AGoalThatIsWalledInLaterIsApproachedToo) {
   GuidePolicy guide{AgentParameters{}, {true}, 0.0};
   guide.refresh(0.0, on(empty_map()), kGoal, kHere);
