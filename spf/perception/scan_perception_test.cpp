@@ -212,6 +212,55 @@ TEST(ScanPerception, KeepsOutOfTheMapWhatHasStoppedAndKnowsItAgain) {
   EXPECT_EQ(track->id, id);
 }
 
+TEST(ScanPerception, LeavesToTheMapWhatHasStoppedWhereOthersTellOfPeople) {
+  Watch watch{true};
+  PerceptionParameters parameters = Watch::parameters(true);
+  parameters.moving_alone = true;
+  watch.perception = ScanPerception{parameters};
+  watch.scene.walls = {{{-7.0, 4.0}, {7.0, 4.0}}};
+  watch.scene.discs = {{{3.0, -2.0}, 0.3, {0.0, 1.0}}};
+  watch.look_for(2.0);
+  const Eigen::Vector2d stop = watch.truth(0);
+  const auto reported = [&] {
+    std::vector<Detection> detections;
+    watch.perception.detections(watch.time, detections);
+    return detections.size();
+  };
+  EXPECT_EQ(reported(), 1U);
+  const SceneDisc mover = watch.scene.discs[0];
+  watch.scene.discs[0] = {stop, 0.3};
+  watch.look_for(2.0);
+  EXPECT_EQ(reported(), 1U);
+  watch.look_for(3.0);
+  EXPECT_EQ(reported(), 0U);
+  EXPECT_LT(watch.map.distance(stop - Eigen::Vector2d{0.3, 0.0}), 0.1);
+  watch.scene.discs[0] = {stop - watch.time * mover.velocity, 0.3, mover.velocity};
+  watch.look_for(0.8);
+  EXPECT_EQ(reported(), 1U);
+}
+
+/// Pillars that hide each other: which parts of them show changes as the scanner moves, but nothing moves.
+TEST(ScanPerception, TakesNothingForMovingAmongPillars) {
+  RandomStream random{5};
+  for (int scene = 0; scene < 10; ++scene) {
+    Watch watch{true};
+    PerceptionParameters parameters = Watch::parameters(true);
+    parameters.moving_alone = true;
+    watch.perception = ScanPerception{parameters};
+    for (int k = 0; k < 30; ++k)
+      watch.scene.discs.push_back(
+          {{random.uniform(-4.0, 4.0), random.uniform(-1.0, 6.0)}, random.uniform(0.1, 0.3)});
+    watch.sweep.pose_world = {{0.0, -3.0}, 0.0};
+    int moving = 0;
+    for (int k = 0; k < 60; ++k) {
+      watch.sweep.pose_world.position_world.x() = 2.0 * std::sin(0.1 * k);
+      watch.look();
+      for (const ScanTrack& track : watch.perception.tracks()) moving += track.dynamic ? 1 : 0;
+    }
+    EXPECT_EQ(moving, 0) << scene;
+  }
+}
+
 TEST(ScanPerception, SeesStraightWhileItTurnsAndDrives) {
   Watch watch;
   watch.map.add_box({-8.0, 3.0}, {8.0, 4.0});

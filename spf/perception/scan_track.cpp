@@ -49,7 +49,6 @@ ScanTrack born_track(int id, const ScanDetection& detection, const PerceptionPar
   track.radius = detection.radius;
   track.depth = track.birth.depth = detection.depth;
   track.behind = detection.behind;
-  track.birth.surface_world = detection.position_world - detection.depth * detection.behind;
   track.isolated = detection.isolated();
   track.radius_variance = detection.radius_variance;
   track.face = detection.kind == ScanDetection::Kind::face;

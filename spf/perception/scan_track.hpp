@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 #include "spf/perception/scan_detector.hpp"
 
 namespace spf {
@@ -23,7 +25,9 @@ struct ScanTrack {
     Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();      ///< [m^2] of that
     double depth = 0.0;                                        ///< [m]
-    Eigen::Vector2d surface_world = Eigen::Vector2d::Zero();   ///< [m] the point nearest to the sensor
+    /// [m] The first, a middle and the last return: points of a surface, which what is computed from several
+    /// returns need not be.
+    std::array<Eigen::Vector2d, 3> returns_world{};
   };
 
   /// What speaks for it.
@@ -57,6 +61,8 @@ struct ScanTrack {
 
   Birth birth;
   Evidence evidence;
+  Eigen::Vector2d still_world = Eigen::Vector2d::Zero();  ///< [m] where it has stayed ...
+  double still_since = 0.0;                               ///< ... [s] since then
 
   [[nodiscard]] Eigen::Vector2d position() const { return state.head<2>(); }
   [[nodiscard]] Eigen::Vector2d velocity() const { return state.tail<2>(); }

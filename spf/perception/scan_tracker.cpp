@@ -15,6 +15,7 @@ constexpr double kTentativeTime = 0.35;   // [s] longest time out of sight of a 
 constexpr double kRadiusDrift = 0.02;     // [m/sqrt(s)] process noise of the radius
 constexpr double kSameTime = 0.01;        // [s] parts farther apart in time are not fitted together
 constexpr double kDoubleShare = 0.5;      // [1] of the sum of radii: nearer than this, two tracks are one
+constexpr double kStopTime = 3.0;         // [s] in one place
 constexpr double kVacatedSigmas = 5.0;    // [1] of the range noise
 constexpr double kLargestSigma = 1.0;     // [m] a track with a larger position sigma ends
 
@@ -37,7 +38,7 @@ void ScanTracker::update(const SensorSweep& sweep, const Segmentation& segmentat
   }
   end_doubles();
   drop_ended(time);
-  give_birth(detector.detections());
+  give_birth(segmentation, detector.detections());
 }
 
 void ScanTracker::match(const std::vector<ScanDetection>& detections) {
@@ -150,7 +151,11 @@ void ScanTracker::judge(const SensorSweep& sweep, ScanTrack& track) {
   const bool report = track.dynamic || (!parameters_.moving_alone && (!parameters_.map_scans || alone));
   if (track.reported && !report) ended_.push_back(track.id);
   track.reported = report;
-  if (track.dynamic || track.sight != ScanTrack::Sight::seen) return;
+  if (track.sight != ScanTrack::Sight::seen) return;
+  if (track.dynamic) {
+    watch_stand(track);
+    return;
+  }
   // A better estimate of the depth moves the centre, not the object.
   Eigen::Vector2d gone = track.position() - track.birth.position_world;
   if (track.face) gone = gone.dot(track.behind) * track.behind;
@@ -159,10 +164,34 @@ void ScanTracker::judge(const SensorSweep& sweep, ScanTrack& track) {
   const Eigen::Matrix2d spread = track.birth.covariance + track.position_covariance();
   const bool displaced = gone.norm() > parameters_.dynamic_distance && track.evidence.sweeps >= 2.0 &&
                          gone.dot(spread.inverse() * gone) > 11.8;  // three sigma, two degrees
-  track.dynamic =
-      track.evidence.free_sweeps >= 1.5 ||
-      (displaced && (!parameters_.map_scans ||
-                     vacated(sweep, track.birth.surface_world, kVacatedSigmas * parameters_.range_sigma)));
+  // What moves into space seen free is known by that. What moves on into its own shadow leaves all of its
+  // place.
+  const auto left = [&](const Eigen::Vector2d& place) {
+    return vacated(sweep, place, kVacatedSigmas * parameters_.range_sigma);
+  };
+  const auto& before = track.birth.returns_world;
+  track.dynamic = track.evidence.free_sweeps >= 1.5 ||
+                  (displaced && (!parameters_.map_scans || std::all_of(before.begin(), before.end(), left)));
+}
+
+/// Where an outside detector tells of all that might start to move, what has stopped is static, like what
+/// never moved: it enters the map, until it moves again.
+void ScanTracker::watch_stand(ScanTrack& track) const {
+  const double reach =
+      parameters_.dynamic_distance + 2.0 * std::sqrt(0.5 * track.position_covariance().trace());
+  if (track.still_since <= track.birth.time || (track.position() - track.still_world).norm() > reach) {
+    track.still_world = track.position();
+    track.still_since = track.time;
+  }
+  if (!parameters_.map_scans || !parameters_.moving_alone) return;
+  if (track.time - track.still_since < kStopTime) return;
+  track.dynamic = false;
+  track.evidence.free_sweeps = 0.0;
+  track.birth.time = track.time;
+  track.birth.position_world = track.position();
+  track.birth.covariance = track.position_covariance();
+  track.birth.depth = track.depth;
+  track.birth.returns_world.fill(track.measured_world - track.depth * track.behind);
 }
 
 /// Of two tracks of one object the younger ends.
@@ -221,7 +250,7 @@ void ScanTracker::drop_ended(double time) {
   std::sort(ended_.begin(), ended_.end());
 }
 
-void ScanTracker::give_birth(const std::vector<ScanDetection>& detections) {
+void ScanTracker::give_birth(const Segmentation& segmentation, const std::vector<ScanDetection>& detections) {
   for (std::size_t k = 0; k < detections.size(); ++k) {
     if (track_of_detection_[k] >= 0) continue;
     if (tracks_.size() >= kMostScanTracks) {
@@ -230,6 +259,10 @@ void ScanTracker::give_birth(const std::vector<ScanDetection>& detections) {
     }
     track_of_detection_[k] = next_id_;
     tracks_.push_back(born_track(next_id_++, detections[k], parameters_));
+    const Segment& part = detections[k].parts[0];
+    const std::array<int, 3> some{part.first, part.first + part.count / 2, part.first + part.count - 1};
+    for (std::size_t i = 0; i < some.size(); ++i)
+      tracks_.back().birth.returns_world[i] = segmentation.returns()[as_index(some[i])].position_world;
     tracks_.back().reported =
         !parameters_.moving_alone && (!parameters_.map_scans || detections[k].isolated());
     ++stats_.born;

@@ -53,7 +53,8 @@ class ScanTracker {
   void join_parts(const Segmentation& segmentation, std::vector<ScanDetection>& detections);
   void correct_matched(const SensorSweep& sweep, const Segmentation& segmentation, ScanDetector& detector);
   void look_for(const SensorSweep& sweep, ScanTrack& track) const;
-  void give_birth(const std::vector<ScanDetection>& detections);
+  void give_birth(const Segmentation& segmentation, const std::vector<ScanDetection>& detections);
+  void watch_stand(ScanTrack& track) const;
   void judge(const SensorSweep& sweep, ScanTrack& track);
   void end_doubles();
   [[nodiscard]] bool over(const ScanTrack& track, double time);

@@ -6,6 +6,13 @@
 #include <limits>
 
 namespace spf {
+namespace {
+
+constexpr double kBesideWay = 0.5;  // [1] of the resolution: no farther, a position is on a straight way
+constexpr int kJustPassed = 4;      // corners at most that are so near that they may lie behind
+
+}  // namespace
+
 /// The four nodes around a position and their weights.
 struct CostToGo::Cell {
   Eigen::Vector2d local;  // [m] from the window's origin
@@ -126,7 +133,11 @@ bool CostToGo::passed(const Eigen::Vector2d& corner, std::int32_t index, const E
   const Node& node = node_at(index);
   const Eigen::Vector2d offset = local - corner;
   const Eigen::Vector2d onwards = Eigen::Vector2d{node.parent_x, node.parent_y} - corner;
-  return offset.norm() < window_.resolution && (onwards.isZero() || offset.dot(onwards) > 0.0);
+  const double along = offset.dot(onwards);
+  const double far = offset.norm() / window_.resolution;
+  if (far < 1.0) return onwards.isZero() || along > 0.0;
+  const double beside = std::fabs(offset.x() * onwards.y() - offset.y() * onwards.x());
+  return far < 2.0 && along > 0.0 && beside < kBesideWay * window_.resolution * onwards.norm();
 }
 
 std::int32_t CostToGo::best_corner(const Cell& cell) const {
@@ -154,25 +165,34 @@ void CostToGo::walk(const Eigen::Vector2d& position_world, const Visit& visit) c
   const bool agreed = std::all_of(cell.node.begin(), cell.node.end(), [&](std::int32_t index) {
     return index_of_parent(index) == index_of_parent(corner);
   });
-  // Where the four nodes have different parents, the straight line from here to one of these may clip an
-  // edge.
-  const Node& first = node_at(corner);
-  bool on_way = agreed || passed(local_position(corner), corner, cell.local);
-  if (!on_way && !on_blocked_ground(first) && !visit(local_position(corner))) return;
-  std::int32_t index = corner;
-  if (on_blocked_ground(first) && first.parent_node != kBlocked) {
-    index = nearest_reached_of(first);
-    on_way = passed(local_position(index), index, cell.local);
-    if (!on_way && !visit(local_position(index))) return;
-  }
-  // Costs fall from parent to parent, so this ends at the goal.
-  while (index >= 0) {
-    const Node& node = node_at(index);
-    const Eigen::Vector2d parent{node.parent_x, node.parent_y};
-    index = node.parent_node;
-    on_way = on_way && passed(parent, index, cell.local);
-    if (!on_way && !visit(parent)) return;
-  }
+  // Calls look(corner, its node) for the corners from here on, until it returns false. Costs fall from parent
+  // to parent, so this ends at the goal.
+  const auto follow = [&](const auto& look) {
+    const Node& first = node_at(corner);
+    std::int32_t index = corner;
+    // Where the four nodes have different parents, the straight line from here to one of these may clip an
+    // edge.
+    if (!agreed && !on_blocked_ground(first) && !look(local_position(corner), corner)) return;
+    if (on_blocked_ground(first) && first.parent_node != kBlocked) {
+      index = nearest_reached_of(first);
+      if (!look(local_position(index), index)) return;
+    }
+    while (index >= 0) {
+      const Node& node = node_at(index);
+      const Eigen::Vector2d parent{node.parent_x, node.parent_y};
+      index = node.parent_node;
+      if (!look(parent, index)) return;
+    }
+  };
+  int looked = 0;
+  int last_passed = 0;
+  follow([&](const Eigen::Vector2d& place, std::int32_t index) {
+    ++looked;
+    if (passed(place, index, cell.local)) last_passed = looked;
+    return narrow() && looked < kJustPassed;
+  });
+  int count = 0;
+  follow([&](const Eigen::Vector2d& place, std::int32_t) { return ++count <= last_passed || visit(place); });
 }
 
 Eigen::Vector2d CostToGo::descend(const Eigen::Vector2d& position_world, double distance) const {

@@ -11,7 +11,11 @@ namespace {
 /// Lines of sight may pass this much nearer than the clearance, in cells of the map: the error of bilinear
 /// interpolation and of the steps between nodes.
 constexpr double kSightSlack = 0.25;
-constexpr double kNarrowSlack = 0.1;  // likewise by exact distances
+constexpr double kNarrowSlack = 0.0;  // likewise by exact distances
+/// [1] of the room between least and wanted: what has no more than this beyond the least may turn out to be
+/// too narrow, so a metre of it costs many: another way is taken as long as there is one.
+constexpr double kTightShare = 0.33;
+constexpr double kTightCost = 20.0;
 /// [1] Room gained per metre by a move that counts: across a passage it is about 1, along it little. Nodes
 /// that moved along it would lie behind positions that they are to lead on.
 constexpr double kAcross = 0.5;
@@ -19,6 +23,13 @@ constexpr double kNextToNothing = 0.02;     // [m]
 constexpr std::int64_t kLookWork = 2;       // of distance()
 constexpr std::int64_t kExactLookWork = 6;  // of exact_distance()
 constexpr int kBendRounds = 3;              // a way between neighbours bends 7 times at most
+
+/// [1] Of a metre where there is so much room [m], beyond its length.
+double narrow_price(double room, double least, double wanted) {
+  const double lack = std::max(wanted - room, 0.0) / std::max(wanted - least, 1e-9);
+  const double tight = 1.0 - (room - least) / std::max(kTightShare * (wanted - least), 1e-9);
+  return kNarrowCost * lack * lack + kTightCost * std::max(tight, 0.0);
+}
 
 }  // namespace
 
@@ -43,7 +54,10 @@ std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen
   const Eigen::Vector2d start = window_.origin_world + from;
   const Eigen::Vector2d direction =
       length > 0.0 ? Eigen::Vector2d{(to - from) / length} : Eigen::Vector2d{0, 0};
+  // By the trapezoid rule: were each step priced at its beginning, ways would gain by where they begin.
   double cost = 0.0;
+  double step = 0.0;
+  double price_before = 0.0;
   for (double travelled = 0.0;;) {
     const Eigen::Vector2d here = start + travelled * direction;
     double room = map.distance(here);
@@ -54,12 +68,13 @@ std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen
       work_ += kExactLookWork;
     }
     if (!(room >= least)) return std::nullopt;
+    const double price = narrow_price(room, least, wanted);
+    cost += 0.5 * step * (price_before + price);
+    price_before = price;
     // What costs next to nothing shares its parent with its neighbours, which saves memory.
     if (travelled >= length)
       return (cost > kNextToNothing ? cost : 0.0) + standing_cost(start, start + length * direction);
-    const double step = std::min(std::max(room - wanted, 0.5 * cell), length - travelled);
-    const double lack = (wanted - room) / std::max(wanted - least, 1e-9);
-    if (lack > 0.0) cost += kNarrowCost * lack * lack * step;
+    step = std::min(std::max(room - wanted, 0.5 * cell), length - travelled);
     travelled = step < length - travelled ? travelled + step : length;
   }
 }
