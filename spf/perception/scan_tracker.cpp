@@ -248,6 +248,7 @@ void ScanTracker::drop_ended(double time) {
   }
   tracks_.resize(kept);
   std::sort(ended_.begin(), ended_.end());
+  ended_.erase(std::unique(ended_.begin(), ended_.end()), ended_.end());
 }
 
 void ScanTracker::give_birth(const Segmentation& segmentation, const std::vector<ScanDetection>& detections) {

@@ -129,7 +129,7 @@ Eigen::Vector2d CostToGo::direction(const Eigen::Vector2d& position_world) const
 /// Whether a corner has just been passed on the way to the parent of a node there. A node that is not at its
 /// place of the grid may lie behind the positions of its cell.
 bool CostToGo::passed(const Eigen::Vector2d& corner, std::int32_t index, const Eigen::Vector2d& local) const {
-  if (!narrow() || index < 0) return false;
+  if (!narrow() || is_far_field_ || index < 0) return false;
   const Node& node = node_at(index);
   const Eigen::Vector2d offset = local - corner;
   const Eigen::Vector2d onwards = Eigen::Vector2d{node.parent_x, node.parent_y} - corner;
@@ -138,6 +138,12 @@ bool CostToGo::passed(const Eigen::Vector2d& corner, std::int32_t index, const E
   if (far < 1.0) return onwards.isZero() || along > 0.0;
   const double beside = std::fabs(offset.x() * onwards.y() - offset.y() * onwards.x());
   return far < 2.0 && along > 0.0 && beside < kBesideWay * window_.resolution * onwards.norm();
+}
+
+/// The corners of the far field are no nodes of this one, and told apart by their places.
+bool CostToGo::same_parent(const Node& a, const Node& b) const {
+  return a.parent_node == b.parent_node &&
+         (!far_field_ || (a.parent_x == b.parent_x && a.parent_y == b.parent_y));
 }
 
 std::int32_t CostToGo::best_corner(const Cell& cell) const {
@@ -161,9 +167,8 @@ void CostToGo::walk(const Eigen::Vector2d& position_world, const Visit& visit) c
   if (!visit(Eigen::Vector2d{position_world - window_.origin_world})) return;
   if (cell.outside > 0.0 && !visit(cell.local)) return;
   const std::int32_t corner = best_corner(cell);
-  const auto index_of_parent = [this](std::int32_t index) { return node_at(index).parent_node; };
   const bool agreed = std::all_of(cell.node.begin(), cell.node.end(), [&](std::int32_t index) {
-    return index_of_parent(index) == index_of_parent(corner);
+    return same_parent(node_at(index), node_at(corner));
   });
   // Calls look(corner, its node) for the corners from here on, until it returns false. Costs fall from parent
   // to parent, so this ends at the goal.

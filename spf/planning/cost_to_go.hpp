@@ -22,7 +22,8 @@
 
 namespace spf {
 
-/// [1] A metre at the least clearance costs so many more: the robot creeps there.
+/// [1] A metre of narrow ground costs up to so many more: the robot creeps there. What may turn out to be too
+/// narrow costs more than that.
 inline constexpr double kNarrowCost = 3.0;
 
 enum class CostToGoOutcome {
@@ -58,8 +59,8 @@ class CostToGo {
                          const Eigen::Vector2d& robot_world);
   /// update() in slices: begins, and is done when advance() says so. Until then there is no cost-to-go.
   void begin(const OccupancyMap& map, const Eigen::Vector2d& goal_world, const Eigen::Vector2d& robot_world);
-  /// For begin(): takes the far field of another, for the same goal, rather than to compute one, as long as
-  /// that is not too old. A robot that moves on needs but a new near field.
+  /// begin() and update() go on with the far field of the run before, as long as its way is free on the map,
+  /// and compute but a new near field; after this call with the far field of another guide to the same goal.
   void share_far_field(const CostToGo& other);
   /// Does about this much work, in units of some 20 ns on a processor of 2020: counted, not timed, so that
   /// the same run gives the same slices. The map may have changed since the last slice; what changed behind
@@ -68,6 +69,12 @@ class CostToGo {
   [[nodiscard]] bool under_way() const { return progress_.stage != Stage::done; }
   /// Whether the robot needs another near field soon.
   [[nodiscard]] bool leaves_near_field(const Eigen::Vector2d& robot_world) const;
+  /// Whether the near field does not reach a position, so that the far one has to do there.
+  [[nodiscard]] bool beyond_near_field(const Eigen::Vector2d& robot_world) const {
+    return beyond(robot_world) != nullptr;
+  }
+  /// Whether the update under way is a search for a way everywhere, which may take minutes.
+  [[nodiscard]] bool looks_everywhere() const { return progress_.fine; }
   /// Number of nodes.
   [[nodiscard]] std::int64_t size() const { return window_count(); }
   /// Whether update() with these arguments could change anything: new goal, changed map, robot out of the
@@ -94,7 +101,7 @@ class CostToGo {
   void shortest_path(const Eigen::Vector2d& position_world,
                      std::vector<Eigen::Vector2d>& corners_world) const;
   /// Whether the straight way between two positions keeps the clearance that paths must keep, but for half a
-  /// cell of the map (a tenth in narrow passages), since they graze their corners.
+  /// cell of the map (in narrow passages all of the least clearance), since they graze their corners.
   [[nodiscard]] bool passable(const OccupancyMap& map, const Eigen::Vector2d& from_world,
                               const Eigen::Vector2d& to_world) const;
   /// Whether a path leads from this position to the goal.
@@ -196,7 +203,9 @@ class CostToGo {
   [[nodiscard]] bool splits(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
   void clear_nodes();
   bool advance_far_field(const OccupancyMap& map);
-  [[nodiscard]] bool shares_far_field(const OccupancyMap& map, double resolution) const;
+  [[nodiscard]] bool shares_far_field(const OccupancyMap& map) const;
+  void coarsen(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
+  [[nodiscard]] bool same_parent(const Node& a, const Node& b) const;
   [[nodiscard]] std::int32_t edge_node(std::int32_t place) const;
   void seed_from_far_field(const OccupancyMap& map, std::int32_t index);
   [[nodiscard]] bool neighbours_see_each_other() const { return !narrow() && !is_far_field_; }

@@ -15,6 +15,13 @@ constexpr double kNearSide = 120.0;            // [nodes] of the fine one around
 constexpr double kLeave = 0.2;                 // [1] of that side from its middle: time for another
 constexpr std::uint64_t kMostRevisions = 200;  // of the map, for a far field
 
+/// [m] Of the part of a rectangle that is on the map.
+Eigen::Vector2d size_on(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  const GridFrame& frame = map.frame();
+  const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
+  return (high.cwiseMin(map_high) - low.cwiseMax(frame.origin_world)).cwiseMax(0.0);
+}
+
 double nodes_in(const Eigen::Vector2d& size, double spacing) {
   return (size / spacing).array().ceil().prod();
 }
@@ -25,16 +32,10 @@ double nodes_in(const Eigen::Vector2d& size, double spacing) {
 /// one.
 bool CostToGo::splits(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   if (is_far_field_ || progress_.fine) return false;
-  const GridFrame& frame = map.frame();
-  const Eigen::Vector2d map_high = frame.node_position(frame.width - 1, frame.height - 1);
-  const Eigen::Vector2d size = (high.cwiseMin(map_high) - low.cwiseMax(frame.origin_world)).cwiseMax(0.0);
   const double spacing = spacing_on(map);
-  if (nodes_in(size, spacing) <= kMostNodes) return false;
-  CostToGoParameters coarse = parameters_;
-  while (nodes_in(size, coarse.resolution) > kMostFarNodes) coarse.resolution *= 2.0;
-  if (!shares_far_field(map, coarse.resolution)) {
+  if (nodes_in(size_on(map, low, high), spacing) <= kMostNodes) return false;
+  if (!shares_far_field(map)) {
     far_field_ = std::make_shared<CostToGo>(anew());
-    far_field_->parameters_ = coarse;
     far_field_->is_far_field_ = true;
     far_field_->begin(map, goal_used_, progress_.robot_world);
   }
@@ -47,10 +48,29 @@ void CostToGo::share_far_field(const CostToGo& other) {
   far_field_ = other.far_field_;
 }
 
-bool CostToGo::shares_far_field(const OccupancyMap& map, double resolution) const {
-  return far_field_ && far_field_->ready() && far_field_->parameters_.resolution == resolution &&
-         far_field_->goal_asked_ == goal_used_ && far_field_->window_covers(progress_.robot_world) &&
-         map.revision() < far_field_->map_revision_ + kMostRevisions;
+/// Whether the far field at hand still holds: for this goal, for a robot there, and on this map, on which its
+/// way must be free but for the first leg, which is the near field's.
+bool CostToGo::shares_far_field(const OccupancyMap& map) const {
+  if (!far_field_ || !far_field_->ready() || far_field_->goal_asked_ != goal_used_ ||
+      !far_field_->window_covers(progress_.robot_world))
+    return false;
+  if (map.revision() == far_field_->map_revision_) return true;
+  if (map.revision() > far_field_->map_revision_ + kMostRevisions) return false;
+  std::vector<Eigen::Vector2d> way;
+  far_field_->shortest_path(progress_.robot_world, way);
+  if (way.size() < 2) return true;
+  const double first = (way[1] - way[0]).norm();
+  const double near = std::min(0.5 * kNearSide * spacing_on(map), first);
+  if (first > 0.0) way[0] += near / first * (way[1] - way[0]);
+  for (std::size_t i = 1; i < way.size(); ++i)
+    if (!far_field_->passable(map, way[i - 1], way[i])) return false;
+  return true;
+}
+
+/// The spacing with which a far field covers a rectangle.
+void CostToGo::coarsen(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  const Eigen::Vector2d size = size_on(map, low, high);
+  while (nodes_in(size, parameters_.resolution) > kMostFarNodes) parameters_.resolution *= 2.0;
 }
 
 bool CostToGo::advance_far_field(const OccupancyMap& map) {

@@ -83,6 +83,36 @@ TEST(CostToGoFar, SaysNoPathOnlyWhereThereIsNone) {
   EXPECT_EQ(guide.update(map, {30.0, 0.0}, {-60.0, 0.0}), CostToGoOutcome::unreachable);
 }
 
+TEST(CostToGoFar, AFarFieldWhoseWayIsBlockedMeanwhileIsComputedAnew) {
+  OccupancyMap map = large_map();
+  const Eigen::Vector2d start{-120.0, 0.0}, goal{120.0, 0.0};
+  CostToGo guide{CostToGoParameters{}, kDiscRadius, kLeastMargin};
+  guide.update(map, goal, start);
+  EXPECT_NEAR(guide.cost_to_go(start), 240.0, 0.1);
+  map.add_box({-0.2, -150.0}, {0.2, 60.0});
+  guide.update(map, goal, start);
+  const double shortest = 2.0 * std::hypot(120.0, 60.3);
+  EXPECT_NEAR(guide.cost_to_go(start), shortest, 0.01 * shortest);
+  map.add_box({-0.2, -150.0}, {0.2, 150.0});
+  EXPECT_EQ(guide.update(map, goal, start), CostToGoOutcome::unreachable);
+}
+
+/// The goal is near, but the way to it leaves the box around both.
+TEST(CostToGoFar, KeepsTheFarFieldOfAWayThatLeavesTheBoxOfRobotAndGoal) {
+  OccupancyMap map = large_map();
+  map.add_box({-0.2, -100.0}, {0.2, 100.0});
+  const Eigen::Vector2d start{-15.0, 0.0}, goal{15.0, 0.0};
+  const double shortest = 2.0 * std::hypot(15.0, 100.3);
+  CostToGo guide{CostToGoParameters{}, kDiscRadius, kLeastMargin};
+  EXPECT_EQ(guide.update(map, goal, start), CostToGoOutcome::reachable);
+  EXPECT_NEAR(guide.cost_to_go(start), shortest, 0.02 * shortest);
+  guide.begin(map, goal, {-15.0, 4.0});
+  EXPECT_TRUE(guide.advance(map, 60 * 15'000));  // a near field, no more
+  double room = 1e9;
+  EXPECT_NEAR(drive(guide, map, start, goal, &room), shortest, 0.02 * shortest);
+  EXPECT_GT(room, kDiscRadius);
+}
+
 TEST(CostToGoFar, ANearFieldAloneIsAnewWhereTheRobotHasMovedOn) {
   const OccupancyMap map = large_map();
   const Eigen::Vector2d goal{120.0, 0.0};

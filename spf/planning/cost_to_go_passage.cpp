@@ -11,7 +11,6 @@ namespace {
 /// Lines of sight may pass this much nearer than the clearance, in cells of the map: the error of bilinear
 /// interpolation and of the steps between nodes.
 constexpr double kSightSlack = 0.25;
-constexpr double kNarrowSlack = 0.0;  // likewise by exact distances
 /// [1] of the room between least and wanted: what has no more than this beyond the least may turn out to be
 /// too narrow, so a metre of it costs many: another way is taken as long as there is one.
 constexpr double kTightShare = 0.33;
@@ -47,7 +46,7 @@ std::optional<double> CostToGo::view(const OccupancyMap& map, const Eigen::Vecto
 std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen::Vector2d& from,
                                             const Eigen::Vector2d& to) const {
   const double cell = map.frame().resolution;
-  const double least = least_clearance_ - kNarrowSlack * cell;
+  const double least = least_clearance_;
   const double wanted = clearance_ - kSightSlack * cell;
   const double length = (to - from).norm();
   if (!std::isfinite(length)) return std::nullopt;

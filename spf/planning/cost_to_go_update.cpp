@@ -5,6 +5,11 @@
 #include "spf/planning/cost_to_go.hpp"
 
 namespace spf {
+namespace {
+
+constexpr std::size_t kMuchMore = 16;  // [1] memory for so many times more nodes than needed is given back
+
+}  // namespace
 
 CostToGoOutcome CostToGo::update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                                  const Eigen::Vector2d& robot_world) {
@@ -26,6 +31,8 @@ void CostToGo::begin(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
   if (!goal) return;
   goal_used_ = *goal;
   progress_.robot_world = robot_world;
+  // A way that was found beyond the box around robot and goal is not looked for in the box again.
+  progress_.everywhere = far_field_ && far_field_->whole_map_ && shares_far_field(map);
   open_window(map);
 }
 
@@ -103,12 +110,14 @@ void CostToGo::open_window(const OccupancyMap& map) {
     return;
   }
   far_field_.reset();
+  if (is_far_field_) coarsen(map, low, high);
   set_window(map, low, high);
   clear_nodes();
 }
 
 void CostToGo::clear_nodes() {
   const std::size_t count = static_cast<std::size_t>(window_count());
+  if (wavefront_.nodes.capacity() > kMuchMore * count) wavefront_ = {};
   wavefront_.state.resize(count);
   wavefront_.surcharge.assign(count, 0.0F);
   wavefront_.nodes.assign(count, {0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen});

@@ -205,14 +205,12 @@ void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index, 
       try_parent(corner);
     }
   });
-  std::int32_t last_tried = failed.parent_node;
+  const Node* last_tried = nullptr;
   for_neighbours(index, [&](std::int32_t next) {
     const Node& parent = wavefront_.nodes[static_cast<std::size_t>(next)];
-    if (wavefront_.state[static_cast<std::size_t>(next)] != settled ||
-        parent.parent_node == failed.parent_node)
-      return;
-    if (parent.parent_node == last_tried) return;
-    last_tried = parent.parent_node;
+    if (wavefront_.state[static_cast<std::size_t>(next)] != settled || same_parent(parent, failed)) return;
+    if (last_tried != nullptr && same_parent(parent, *last_tried)) return;
+    last_tried = &parent;
     try_parent(parent_of(next));
   });
   best.parent_cost += static_cast<float>(best_extra);

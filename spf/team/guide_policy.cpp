@@ -1,6 +1,7 @@
 #include "spf/team/guide_policy.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "spf/team/schedule.hpp"
@@ -105,8 +106,11 @@ void GuidePolicy::start(const WorldSnapshot& world, const Eigen::Vector2d& goal_
 
 /// A slice of the update under way.
 void GuidePolicy::go_on(const OccupancyMap& map, const Eigen::Vector2d& here) {
-  const std::int64_t slice =
+  std::int64_t slice =
       urgent_ ? kMostSlice : std::clamp(kSliceOfNode * next_.size(), kLeastSlice, kMostSlice);
+  // It has outrun its near field, and the far one is no guide beside walls.
+  if (cost_to_go_.beyond_near_field(here) && !next_.looks_everywhere())
+    slice = std::numeric_limits<std::int64_t>::max();
   if (!next_.advance(map, slice)) return;
   const bool unreachable = next_.outcome() == CostToGoOutcome::unreachable && !approaching_;
   if (unreachable && needs_.approaches_cut_off_goal) {
