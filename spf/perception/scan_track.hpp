@@ -26,7 +26,7 @@ struct ScanTrack {
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();      ///< [m^2] of that
     double depth = 0.0;                                        ///< [m]
     /// [m] The first, a middle and the last return: points of a surface, which what is computed from several
-    /// returns need not be.
+    /// returns need not be. NaN: not known.
     std::array<Eigen::Vector2d, 3> returns_world{};
   };
 

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "spf/math/index.hpp"
 
@@ -177,13 +178,13 @@ void ScanTracker::judge(const SensorSweep& sweep, ScanTrack& track) {
 /// Where an outside detector tells of all that might start to move, what has stopped is static, like what
 /// never moved: it enters the map, until it moves again.
 void ScanTracker::watch_stand(ScanTrack& track) const {
+  if (!parameters_.map_scans || !parameters_.moving_alone) return;
   const double reach =
       parameters_.dynamic_distance + 2.0 * std::sqrt(0.5 * track.position_covariance().trace());
   if (track.still_since <= track.birth.time || (track.position() - track.still_world).norm() > reach) {
     track.still_world = track.position();
     track.still_since = track.time;
   }
-  if (!parameters_.map_scans || !parameters_.moving_alone) return;
   if (track.time - track.still_since < kStopTime) return;
   track.dynamic = false;
   track.evidence.free_sweeps = 0.0;
@@ -191,7 +192,8 @@ void ScanTracker::watch_stand(ScanTrack& track) const {
   track.birth.position_world = track.position();
   track.birth.covariance = track.position_covariance();
   track.birth.depth = track.depth;
-  track.birth.returns_world.fill(track.measured_world - track.depth * track.behind);
+  // From now on it is in the map, so only returns in space seen free show that it moves.
+  track.birth.returns_world.fill(Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
 /// Of two tracks of one object the younger ends.

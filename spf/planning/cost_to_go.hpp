@@ -203,7 +203,7 @@ class CostToGo {
   [[nodiscard]] bool splits(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
   void clear_nodes();
   bool advance_far_field(const OccupancyMap& map);
-  [[nodiscard]] bool shares_far_field(const OccupancyMap& map) const;
+  [[nodiscard]] bool far_field_holds(const OccupancyMap& map) const;
   void coarsen(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
   [[nodiscard]] bool same_parent(const Node& a, const Node& b) const;
   [[nodiscard]] std::int32_t edge_node(std::int32_t place) const;

@@ -34,7 +34,7 @@ bool CostToGo::splits(const OccupancyMap& map, const Eigen::Vector2d& low, const
   if (is_far_field_ || progress_.fine) return false;
   const double spacing = spacing_on(map);
   if (nodes_in(size_on(map, low, high), spacing) <= kMostNodes) return false;
-  if (!shares_far_field(map)) {
+  if (!far_field_) {
     far_field_ = std::make_shared<CostToGo>(anew());
     far_field_->is_far_field_ = true;
     far_field_->begin(map, goal_used_, progress_.robot_world);
@@ -48,9 +48,9 @@ void CostToGo::share_far_field(const CostToGo& other) {
   far_field_ = other.far_field_;
 }
 
-/// Whether the far field at hand still holds: for this goal, for a robot there, and on this map, on which its
-/// way must be free but for the first leg, which is the near field's.
-bool CostToGo::shares_far_field(const OccupancyMap& map) const {
+/// Whether the far field at hand, if any, still holds: for this goal, for a robot there, and on this map, on
+/// which its way must be free beyond the near field.
+bool CostToGo::far_field_holds(const OccupancyMap& map) const {
   if (!far_field_ || !far_field_->ready() || far_field_->goal_asked_ != goal_used_ ||
       !far_field_->window_covers(progress_.robot_world))
     return false;

@@ -31,8 +31,9 @@ void CostToGo::begin(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
   if (!goal) return;
   goal_used_ = *goal;
   progress_.robot_world = robot_world;
+  if (!far_field_holds(map)) far_field_.reset();
   // A way that was found beyond the box around robot and goal is not looked for in the box again.
-  progress_.everywhere = far_field_ && far_field_->whole_map_ && shares_far_field(map);
+  progress_.everywhere = far_field_ && far_field_->whole_map_;
   open_window(map);
 }
 

@@ -244,30 +244,27 @@ OccupancyMap::Surroundings OccupancyMap::surroundings_of(const Patch& patch) con
 }
 
 double OccupancyMap::exact_distance(const Eigen::Vector2d& position_world) const {
-  const Patch patch = patch_of(position_world, [](int, int) { return 0.0; });
+  Patch patch = patch_of(position_world, [](int, int) { return 0.0; });  // read with its surroundings
   const Surroundings around = surroundings_of(patch);
   const int across[2] = {1, 1 + patch.node_i[1] - patch.node_i[0]};
   const int up[2] = {1, 1 + patch.node_j[1] - patch.node_j[0]};
-  double value[4];
   Eigen::Vector2d slope[4];
   int widest = 0;
   double weight[4];
   for (int k = 0; k < 4; ++k) {
-    value[k] = around.value[across[k & 1]][up[k >> 1]];
+    patch.value[k & 1][k >> 1] = around.value[across[k & 1]][up[k >> 1]];
     slope[k] = around.slope(across[k & 1], up[k >> 1]);
     weight[k] = ((k & 1) != 0 ? patch.x : 1.0 - patch.x) * (k > 1 ? patch.y : 1.0 - patch.y);
     if (weight[k] > weight[widest]) widest = k;
   }
-  const double low_y = value[0] + patch.x * (value[1] - value[0]);
-  const double high_y = value[2] + patch.x * (value[3] - value[2]);
-  const double interpolated = low_y + patch.y * (high_y - low_y);
+  const double interpolated = patch.interpolated();
   // The nodes of either side of the ridge vouch for the surface on their side.
   double sum[2] = {0.0, 0.0};
   double weights[2] = {0.0, 0.0};
   for (int k = 0; k < 4; ++k) {
     const std::size_t side = slope[k].dot(slope[widest]) > 0.0 ? 0 : 1;
     const Eigen::Vector2d offset{patch.x - (k & 1), patch.y - (k >> 1)};
-    sum[side] += weight[k] * (value[k] + frame_.resolution * offset.dot(slope[k]));
+    sum[side] += weight[k] * (patch.value[k & 1][k >> 1] + frame_.resolution * offset.dot(slope[k]));
     weights[side] += weight[k];
   }
   if (!(weights[1] > 0.0)) return interpolated;
