@@ -37,9 +37,49 @@ void DiffusionPopulation::learn(double dt, double velocity_diffusion, double pos
   mean_.position += part * (position_diffusion / parameters_.prior_position_diffusion - mean_.position);
 }
 
+void DiffusionPopulation::learn(double dt, const DiffusionEvidence& evidence) {
+  if (!(dt > 0.0)) return;
+  evidence_time_ += dt;
+  if (evidence_time_ > kMostTime) {
+    evidence_.scale(kMostTime / evidence_time_);
+    evidence_time_ = kMostTime;
+  }
+  evidence_ += evidence;
+}
+
 DiffusionFactors DiffusionPopulation::prior() const {
   const double part = time_ / (time_ + kPriorTime);
-  return {1.0 + part * (mean_.velocity - 1.0), 1.0 + part * (mean_.position - 1.0)};
+  const DiffusionFactors reported{1.0 + part * (mean_.velocity - 1.0), 1.0 + part * (mean_.position - 1.0)};
+  return evidence_time_ > 0.0 ? evidence_.solve(reported, kPriorTime) : reported;
+}
+
+void DiffusionEvidence::add(const Eigen::Vector2d& row, double value, double weight) {
+  normal += weight * row * row.transpose();
+  right += weight * value * row;
+}
+
+void DiffusionEvidence::scale(double kept) {
+  normal *= kept;
+  right *= kept;
+}
+
+DiffusionEvidence& DiffusionEvidence::operator+=(const DiffusionEvidence& other) {
+  normal += other.normal;
+  right += other.right;
+  return *this;
+}
+
+DiffusionFactors DiffusionEvidence::solve(const DiffusionFactors& prior, double duration) const {
+  const Eigen::Matrix2d all = normal + duration * Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d wanted = right + duration * Eigen::Vector2d{prior.position, prior.velocity};
+  const double determinant = all(0, 0) * all(1, 1) - all(0, 1) * all(1, 0);
+  DiffusionFactors best;
+  best.position = (wanted.x() * all(1, 1) - wanted.y() * all(0, 1)) / determinant;
+  best.velocity = (wanted.y() * all(0, 0) - wanted.x() * all(1, 0)) / determinant;
+  // When one of the two would be negative, it is set to zero and the other explains all.
+  if (best.position < 0.0) return {std::max(wanted.y() / all(1, 1), 0.0), 0.0};
+  if (best.velocity < 0.0) return {0.0, std::max(wanted.x() / all(0, 0), 0.0)};
+  return best;
 }
 
 DiffusionEstimator::DiffusionEstimator(const DiffusionParameters& parameters, const DiffusionFactors& prior)
@@ -69,8 +109,7 @@ void DiffusionEstimator::forget(double dt) {
        {&increment_weight_, &velocity_square_, &velocity_lagged_, &position_weight_, &position_square_}) {
     *sum *= kept;
   }
-  normal_ *= kept;
-  right_ *= kept;
+  evidence_.scale(kept);
 }
 
 void DiffusionEstimator::update(double time, const Eigen::Vector2d& position, double position_sigma,
@@ -86,12 +125,14 @@ void DiffusionEstimator::update(double time, const Eigen::Vector2d& position, do
 
 void DiffusionEstimator::update(double time, const Eigen::Vector2d& position, double position_sigma) {
   const Sample now{time, position, Eigen::Vector2d::Zero(), position_sigma};
+  new_evidence_ = {};
   if (count_ > 0 && time > history(0).time) {
     const double dt = time - history(0).time;
     mean_interval_ = mean_interval_ > 0.0 ? mean_interval_ + 0.1 * (dt - mean_interval_) : dt;
     forget(dt);
     learn_from_difference(now, kShortLag);
     learn_from_difference(now, kLongLag);
+    evidence_ += new_evidence_;
     solve();
   }
   keep(now);
@@ -162,8 +203,7 @@ void DiffusionEstimator::learn_from_difference(const Sample& now, double lag) {
                                               parameters_.prior_velocity_diffusion * per_velocity} /
                               expected;
   const double weight = std::min(1.0, mean_interval_ / late) * late;
-  normal_ += weight * row * row.transpose();
-  right_ += weight * (part * square - noise) / expected * row;
+  new_evidence_.add(row, (part * square - noise) / expected, weight);
 }
 
 // Prior and data together. Increments of the velocity separate the two diffusions, so there the prior fades
@@ -188,14 +228,9 @@ void DiffusionEstimator::solve() {
     position_factor = (prior * prior_.position + position_square_ / parameters_.prior_position_diffusion) /
                       (prior + position_weight_);
   } else {
-    const Eigen::Matrix2d normal = normal_ + prior * Eigen::Matrix2d::Identity();
-    const Eigen::Vector2d right = right_ + prior * Eigen::Vector2d{prior_.position, prior_.velocity};
-    const double determinant = normal(0, 0) * normal(1, 1) - normal(0, 1) * normal(1, 0);
-    position_factor = (right.x() * normal(1, 1) - right.y() * normal(0, 1)) / determinant;
-    velocity_factor = (right.y() * normal(0, 0) - right.x() * normal(1, 0)) / determinant;
-    // When one of the two would be negative, it is set to zero and the other explains all.
-    if (position_factor < 0.0) velocity_factor = right.y() / normal(1, 1);
-    if (velocity_factor < 0.0) position_factor = right.x() / normal(0, 0);
+    const DiffusionFactors best = evidence_.solve(prior_, prior);
+    position_factor = best.position;
+    velocity_factor = best.velocity;
   }
   const auto bounded = [this](double factor) {
     return std::clamp(factor, parameters_.lowest_factor, parameters_.highest_factor);

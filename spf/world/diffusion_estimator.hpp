@@ -41,21 +41,38 @@ struct DiffusionFactors {
   double position = 1.0;
 };
 
-/// What obstacles of this place are like: the mean of what has been learnt from those that moved. It is the
-/// prior of the next one, which is seen for a few seconds only in a crowd. The priors of the parameters count
-/// as kPriorTime of it.
+/// Linear equations of the two factors, (position, velocity), weighted by seconds of data.
+struct DiffusionEvidence {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+
+  void add(const Eigen::Vector2d& row, double value, double weight);
+  void scale(double kept);
+  DiffusionEvidence& operator+=(const DiffusionEvidence& other);
+  /// The factors that fit it and a prior of `duration` [s] best; none is negative.
+  [[nodiscard]] DiffusionFactors solve(const DiffusionFactors& prior, double duration) const;
+};
+
+/// What obstacles of this place are like: what fits all of those that moved. It is the prior of the next one,
+/// which is seen for a few seconds only in a crowd. The priors of the parameters count as kPriorTime of it.
 class DiffusionPopulation {
  public:
   explicit DiffusionPopulation(const DiffusionParameters& parameters = {}) : parameters_{parameters} {}
 
-  /// Another `dt` [s] of a moving obstacle, of which these diffusions are believed.
+  /// Another `dt` [s] of a moving obstacle whose velocities are reported, and of which these diffusions are
+  /// believed.
   void learn(double dt, double velocity_diffusion, double position_diffusion);
+  /// Another `dt` [s] of one of which positions alone are known. Its evidence counts, not what it is believed
+  /// to be, which is half its prior as long as it has been seen for a few seconds.
+  void learn(double dt, const DiffusionEvidence& evidence);
   [[nodiscard]] DiffusionFactors prior() const;
 
  private:
   DiffusionParameters parameters_;
   double time_ = 0.0;  // [s]
   DiffusionFactors mean_;
+  double evidence_time_ = 0.0;  // [s]
+  DiffusionEvidence evidence_;
 };
 
 /// Learns from samples of one obstacle in the order of time, by what a sample holds:
@@ -81,6 +98,8 @@ class DiffusionEstimator {
   [[nodiscard]] double velocity_noise() const {
     return velocity_noise_;
   }  ///< [(m/s)^2] of reported velocities
+  /// What the last sample without velocity has told.
+  [[nodiscard]] const DiffusionEvidence& new_evidence() const { return new_evidence_; }
 
  private:
   struct Sample {
@@ -115,10 +134,9 @@ class DiffusionEstimator {
   std::optional<Eigen::Vector2d> velocity_step_;  // [m/s] the previous increment
   bool velocity_outlier_ = false;                 // the previous sample was one
   bool position_outlier_ = false;
-  double mean_interval_ = 0.0;  // [s]
-  Eigen::Matrix2d normal_ =
-      Eigen::Matrix2d::Zero();  // least squares in units of the priors: (position, velocity)
-  Eigen::Vector2d right_ = Eigen::Vector2d::Zero();
+  double mean_interval_ = 0.0;      // [s]
+  DiffusionEvidence evidence_;      // of samples without velocity
+  DiffusionEvidence new_evidence_;  // of the last one
 
   std::array<Sample, kHistory> ring_;
   int newest_ = 0;

@@ -177,8 +177,11 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
   }
   track.position_diffusion = memory.diffusion.position_diffusion();
   track.velocity_diffusion = memory.diffusion.velocity_diffusion();
-  if (track.state.velocity_world.norm() > kMoving * parameters_.initial_speed)
+  if (track.state.velocity_world.norm() <= kMoving * parameters_.initial_speed) return;
+  if (detection.velocity_world)
     population_.learn(dt, track.velocity_diffusion, track.position_diffusion);
+  else
+    population_.learn(dt, memory.diffusion.new_evidence());
 }
 
 void ObstacleTracker::watch_standing(ObstacleTrack& track, Memory& memory, const Detection& detection,

@@ -321,5 +321,31 @@ TEST(ObstacleTracker, ForgetsWhatItIsToldToAndKeepsTheOthers) {
   EXPECT_EQ(tracker.stats().dropped, 0U);  // none has timed out
 }
 
+/// People walk by, each seen for three seconds by positions of 1 cm alone. They hardly change their velocity,
+/// but three seconds of one of them do not tell that; what they have in common does.
+TEST(ObstacleTracker, LearnsFromManyWhoAreSeenForAShortTimeWhatTheNextWillBeLike) {
+  ObstacleTracker tracker;
+  RandomStream random{5};
+  const double sigma = 0.01;
+  double time = 0.0;
+  const auto walk_by = [&](int id, int looks) {
+    const Eigen::Vector2d velocity = 1.2 * random.normal2().normalized();
+    Eigen::Vector2d position = random.normal2();
+    for (int k = 0; k < looks; ++k) {
+      tracker.update({time, {{id, position + sigma * random.normal2(), {}, 0.3, sigma}}, {}});
+      position += 0.1 * velocity;
+      time += 0.1;
+    }
+  };
+  for (int id = 0; id < 15; ++id) walk_by(id, 30);
+  walk_by(100, 1);
+  const ObstacleTrack& next = tracker.tracks().back();
+  ASSERT_EQ(next.id, 100);
+  const DiffusionParameters prior;
+  EXPECT_LT(next.velocity_diffusion, 0.35 * prior.prior_velocity_diffusion);
+  EXPECT_LT(next.position_diffusion, 0.35 * prior.prior_position_diffusion);
+  EXPECT_GE(next.velocity_diffusion, 0.0);
+}
+
 }  // namespace
 }  // namespace spf
