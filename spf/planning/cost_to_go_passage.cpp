@@ -11,6 +11,7 @@ namespace {
 /// Lines of sight may pass this much nearer than the clearance, in cells of the map: the error of bilinear
 /// interpolation and of the steps between nodes.
 constexpr double kSightSlack = 0.25;
+constexpr double kRounding = 1e-9;
 /// [1] of the room between least and wanted: what has no more than this beyond the least may turn out to be
 /// too narrow, so a metre of it costs many: another way is taken as long as there is one.
 constexpr double kTightShare = 0.33;
@@ -87,15 +88,14 @@ bool CostToGo::standing_near(const Eigen::Vector2d& position_world) const {
 }
 
 /// What a straight way costs [m] for what stands on it: all of the wait, wherever it enters, since beside the
-/// middle is no better; nothing on the way out, so that what stands near a goal does not make the ground
-/// around dear.
+/// middle is no better; nothing on the way out, which does not lead deeper into it, so that what stands near
+/// a goal does not make the ground around dear.
 double CostToGo::standing_cost(const Eigen::Vector2d& from_world, const Eigen::Vector2d& to_world) const {
   double cost = 0.0;
   const Eigen::Vector2d along = to_world - from_world;
   for (const StandingDisc& disc : standing_) {
-    const double reach = least_clearance_ + disc.radius;
     const Eigen::Vector2d offset = disc.position_world - from_world;
-    if (offset.squaredNorm() <= reach * reach) continue;
+    const double reach = std::min(least_clearance_ + disc.radius, (1.0 - kRounding) * offset.norm());
     const double part = std::clamp(offset.dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
     if ((offset - part * along).squaredNorm() < reach * reach) cost += standing_speed_ * disc.wait;
   }

@@ -339,6 +339,29 @@ TEST(CostToGo, GoesRoundWhatStandsWhereThatIsShorterThanToWait) {
   EXPECT_NEAR(path_past(20.0, only), 10.0, 0.2);
 }
 
+TEST(CostToGo, GoesRoundWhatStandsFromBesideItToo) {
+  const OccupancyMap map = map_with({});
+  CostToGo guide = guide_for_narrow_gaps();
+  const Eigen::Vector2d disc{0.0, 0.1};
+  guide.set_standing({{disc, 0.3, 60.0}}, 1.0);
+  ASSERT_EQ(guide.update(map, {-5.0, 0.0}, {5.0, 0.0}), CostToGoOutcome::reachable);
+  // From places that nearly touch it, and some nearer than the margin.
+  for (double x = 0.45; x < 0.8; x += 0.05) {
+    for (double y = -0.3; y <= 0.3; y += 0.1) {
+      const Eigen::Vector2d start{x, y};
+      const double gap = (start - disc).norm();
+      if (gap < 0.58) continue;
+      std::vector<Eigen::Vector2d> corners;
+      guide.shortest_path(start, corners);
+      for (std::size_t leg = 1; leg < corners.size(); ++leg)
+        for (int k = 0; k <= 20; ++k) {
+          const Eigen::Vector2d place = corners[leg - 1] + 0.05 * k * (corners[leg] - corners[leg - 1]);
+          EXPECT_GT((place - disc).norm(), std::min(gap, 0.6) - 0.1) << x << " " << y;
+        }
+    }
+  }
+}
+
 TEST(CostToGo, KnowsWhenItIsOutdated) {
   OccupancyMap map = map_with(kUShape);
   CostToGo guide{CostToGoParameters{}, kBodyRadius};
