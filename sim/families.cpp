@@ -8,6 +8,7 @@
 #include "sim/geometry.hpp"
 #include "sim/pedestrian_scene.hpp"
 #include "sim/tight_scenes.hpp"
+#include "sim/traffic_scenes.hpp"
 #include "sim/uniform_grid.hpp"
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
@@ -244,7 +245,10 @@ bool draw_scene(Family family, RandomStream& random, const LayoutParameters& lay
     case Family::clutter:
       return draw_clutter(random, layout, scenario);
     case Family::doors:
-      return draw_doors(random, layout, scenario);
+      return layout.robots == 1 ? draw_doors(random, layout, scenario)
+                                : draw_busy_door(random, layout, scenario);
+    case Family::corridor:
+      return draw_corridor(random, layout, scenario);
     case Family::ped:
       break;  // nothing is drawn: place_among_people()
   }
@@ -272,7 +276,7 @@ std::pair<std::string, int> what_did_not_fit(Family family, const LayoutParamete
 
 Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) {
   const FamilySetup checked = validated(setup);
-  require_one_robot_that_fits(checked);
+  require_robots_that_fit(checked);
   const std::uint64_t trial_seed = mix(seed, static_cast<std::uint64_t>(trial));
   const int attempts = attempts_for(checked.layout);
   std::pair<std::string, int> crowded;

@@ -15,15 +15,16 @@
 namespace spf::sim {
 
 enum class Family {
-  t2,       ///< five robots cross a field with squares and discs (the paper's Table 2)
-  t2_hard,  ///< the same, crowded
-  f7,       ///< twelve robots, one moving disc, sensed map (the paper's Fig. 7)
-  p8,       ///< the paper's platform: eight small robots in a walled arena (Fig. 8)
-  swap,     ///< robots on a circle exchange positions
-  field,    ///< equal density for any number of robots
-  ped,      ///< robots cross a recorded crowd
-  clutter,  ///< one robot among pillars between two walls
-  doors,    ///< one robot through one door
+  t2,        ///< five robots cross a field with squares and discs (the paper's Table 2)
+  t2_hard,   ///< the same, crowded
+  f7,        ///< twelve robots, one moving disc, sensed map (the paper's Fig. 7)
+  p8,        ///< the paper's platform: eight small robots in a walled arena (Fig. 8)
+  swap,      ///< robots on a circle exchange positions
+  field,     ///< equal density for any number of robots
+  ped,       ///< robots cross a recorded crowd
+  clutter,   ///< one robot among pillars between two walls
+  doors,     ///< robots through one door
+  corridor,  ///< robots through a corridor of one lane, from both ends
 };
 
 }  // namespace spf::sim
@@ -31,7 +32,7 @@ enum class Family {
 namespace spf {
 template <>
 struct EnumNames<sim::Family> {
-  static constexpr std::array<std::pair<sim::Family, const char*>, 9> values{
+  static constexpr std::array<std::pair<sim::Family, const char*>, 10> values{
       {{sim::Family::t2, "t2"},
        {sim::Family::t2_hard, "t2_hard"},
        {sim::Family::f7, "f7"},
@@ -40,7 +41,8 @@ struct EnumNames<sim::Family> {
        {sim::Family::field, "field"},
        {sim::Family::ped, "ped"},
        {sim::Family::clutter, "clutter"},
-       {sim::Family::doors, "doors"}}};
+       {sim::Family::doors, "doors"},
+       {sim::Family::corridor, "corridor"}}};
 };
 }  // namespace spf
 
@@ -66,11 +68,15 @@ struct LayoutParameters {
   double window_spacing = 5.0;    ///< [s] from the beginning of a window to that of the next (ped)
   double fill_low = 0.19;         ///< [1] of the lattice before it is smoothed (clutter)
   double fill_high = 0.27;
-  double passable_radius = 0.35;     ///< [m] of a disc that gets through (clutter)
-  double door_width_low = 0.7;       ///< [m] (doors)
-  double door_width_high = 1.2;      ///< [m]
-  double wall_thickness_low = 0.05;  ///< [m] (doors)
-  double wall_thickness_high = 0.4;  ///< [m]
+  double passable_radius = 0.35;      ///< [m] of a disc that gets through (clutter)
+  double door_width_low = 0.7;        ///< [m] (doors)
+  double door_width_high = 1.2;       ///< [m]
+  double wall_thickness_low = 0.05;   ///< [m] (doors)
+  double wall_thickness_high = 0.4;   ///< [m]
+  double corridor_width_low = 0.8;    ///< [m] (corridor)
+  double corridor_width_high = 1.1;   ///< [m]
+  double corridor_length_low = 3.0;   ///< [m] (corridor)
+  double corridor_length_high = 6.0;  ///< [m]
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -103,6 +109,14 @@ struct LayoutParameters {
     visit("door_width_high", self.door_width_high, "m", Range{0.01, 10.0}, "widest door (doors)");
     visit("wall_thickness_low", self.wall_thickness_low, "m", Range{0.01, 5.0}, "thinnest wall (doors)");
     visit("wall_thickness_high", self.wall_thickness_high, "m", Range{0.01, 5.0}, "thickest wall (doors)");
+    visit("corridor_width_low", self.corridor_width_low, "m", Range{0.01, 10.0},
+          "narrowest corridor (corridor)");
+    visit("corridor_width_high", self.corridor_width_high, "m", Range{0.01, 10.0},
+          "widest corridor (corridor)");
+    visit("corridor_length_low", self.corridor_length_low, "m", Range{0.01, 100.0},
+          "shortest corridor (corridor)");
+    visit("corridor_length_high", self.corridor_length_high, "m", Range{0.01, 100.0},
+          "longest corridor (corridor)");
   }
 };
 

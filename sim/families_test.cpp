@@ -84,22 +84,47 @@ TEST(Families, EveryFamilyDrawsUsableScenesOfItsSize) {
       const Scenario scenario = scene(family, trial);
       EXPECT_EQ(problems_text(scenario), "");
       EXPECT_EQ(static_cast<int>(scenario.robots.size()), setup.layout.robots);
-      const int walls = family == Family::doors ? 2 : 0;  // either side of the door
+      const bool passage = family == Family::doors || family == Family::corridor;
+      const int walls = passage ? 2 : 0;  // either side of it
       EXPECT_EQ(static_cast<int>(scenario.boxes.size()), setup.layout.squares + walls);
       EXPECT_EQ(static_cast<int>(scenario.moving.size()), setup.layout.discs);
     }
   }
 }
 
-TEST(Families, DrawsPassagesForOneRobotThatIsNarrower) {
-  for (const Family family : {Family::clutter, Family::doors}) {
+TEST(Families, ClutterIsForOneRobot) {
+  FamilySetup setup = family_setup(Family::clutter);
+  setup.layout.robots = 2;
+  EXPECT_THROW(make_scenario(setup, kDefaultSeed, 0), NoRoom);
+}
+
+TEST(Families, TrafficStartsInOneRoomAndEndsInTheOther) {
+  for (const Family family : {Family::doors, Family::corridor}) {
+    for (const int robots : {2, 5, 20}) {
+      FamilySetup setup = family_setup(family);
+      setup.layout.robots = robots;
+      for (int trial = 0; trial < 20; ++trial) {
+        const Scenario scenario = make_scenario(setup, kDefaultSeed, trial);
+        EXPECT_EQ(problems_text(scenario), "");
+        ASSERT_EQ(static_cast<int>(scenario.robots.size()), robots);
+        int from_left = 0;
+        for (const RobotTask& task : scenario.robots) {
+          EXPECT_LT(task.start.position_world.x() * task.goal_world.x(), 0.0);
+          from_left += task.start.position_world.x() < 0.0 ? 1 : 0;
+        }
+        EXPECT_EQ(from_left, (robots + 1) / 2);
+        EXPECT_LT(scenario.boxes[1].high.y(), scenario.boxes[0].low.y());
+      }
+    }
+  }
+}
+
+TEST(Families, DrawsPassagesForRobotsThatAreNarrower) {
+  for (const Family family : {Family::clutter, Family::doors, Family::corridor}) {
     FamilySetup setup = family_setup(family);
-    setup.layout.robots = 2;
+    setup.robot.radius = family == Family::corridor ? 0.41 : 0.36;
     EXPECT_THROW(make_scenario(setup, kDefaultSeed, 0), NoRoom);
-    setup.layout.robots = 1;
-    setup.robot.radius = 0.36;
-    EXPECT_THROW(make_scenario(setup, kDefaultSeed, 0), NoRoom);
-    setup.robot.radius = 0.34;
+    setup.robot.radius = family == Family::corridor ? 0.39 : 0.34;
     EXPECT_NO_THROW(make_scenario(setup, kDefaultSeed, 0));
   }
 }

@@ -104,6 +104,10 @@ FamilySetup family_setup(Family family) {
     case Family::doors:
       make_tight(setup);
       break;
+    case Family::corridor:
+      setup.layout.robots = 4;
+      setup.layout.squares = setup.layout.discs = 0;
+      break;
   }
   return setup;
 }

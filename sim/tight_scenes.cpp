@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace spf::sim {
@@ -104,18 +106,32 @@ void add_task(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Scenari
 
 }  // namespace
 
-void require_one_robot_that_fits(const FamilySetup& setup) {
-  const bool doors = setup.family == Family::doors;
-  if (!doors && setup.family != Family::clutter) return;
-  const std::string family = enum_name(setup.family);
-  if (setup.layout.robots != 1)
-    throw NoRoom{"the family " + family + " has 1 robot, not " + std::to_string(setup.layout.robots),
-                 "robots"};
-  const double open = doors ? 0.5 * setup.layout.door_width_low : setup.layout.passable_radius;
+namespace {
+
+/// Half of the narrowest place that a family promises [m], and the layout's key that says so.
+std::pair<double, const char*> promised_room(const FamilySetup& setup) {
+  switch (setup.family) {
+    case Family::clutter:
+      return {setup.layout.passable_radius, "passable_radius"};
+    case Family::doors:
+      return {0.5 * setup.layout.door_width_low, "door_width_low"};
+    case Family::corridor:
+      return {0.5 * setup.layout.corridor_width_low, "corridor_width_low"};
+    default:
+      return {std::numeric_limits<double>::infinity(), ""};
+  }
+}
+
+}  // namespace
+
+void require_robots_that_fit(const FamilySetup& setup) {
+  if (setup.family == Family::clutter && setup.layout.robots != 1)
+    throw NoRoom{"the family clutter has 1 robot, not " + std::to_string(setup.layout.robots), "robots"};
+  const auto [open, key] = promised_room(setup);
   if (setup.robot.radius < open) return;
   std::ostringstream problem;
   problem << "a robot of radius " << setup.robot.radius << " m must be narrower than that";
-  throw NoRoom{problem.str(), doors ? "door_width_low" : "passable_radius"};
+  throw NoRoom{problem.str(), key};
 }
 
 bool draw_clutter(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {

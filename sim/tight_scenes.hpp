@@ -6,9 +6,9 @@
 
 namespace spf::sim {
 
-/// Throws NoRoom when CLUTTER or DOORS are to have other than one robot, or one that is wider than what they
-/// promise to leave open.
-void require_one_robot_that_fits(const FamilySetup& setup);
+/// Throws NoRoom when CLUTTER is to have other than one robot, or CLUTTER, DOORS or CORRIDOR one that is
+/// wider than what they promise to leave open.
+void require_robots_that_fit(const FamilySetup& setup);
 
 /// CLUTTER: pillars between two walls, on a lattice filled by a cellular automaton. False when no way through
 /// is as wide as the layout wants.

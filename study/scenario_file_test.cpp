@@ -293,8 +293,8 @@ TEST(ScenarioFile, SaysWhenAFamilyHasNoRoom) {
   EXPECT_THAT(
       report("family: p8\nlayout: {discs: 200}"),
       testing::StartsWith("file.yaml:2:17: layout.discs = 200 cannot be drawn: no scene of family p8"));
-  EXPECT_EQ(report("family: doors\nrobots: 5"),
-            "file.yaml:2:9: robots = 5 cannot be drawn: the family doors has 1 robot, not 5");
+  EXPECT_EQ(report("family: clutter\nrobots: 5"),
+            "file.yaml:2:9: robots = 5 cannot be drawn: the family clutter has 1 robot, not 5");
   EXPECT_EQ(report("family: doors\nlayout: {door_width_low: 0.5}"),
             "file.yaml:2:26: layout.door_width_low = 0.5 cannot be drawn: a robot of radius 0.3 m must be "
             "narrower than that");
