@@ -1,5 +1,7 @@
 #include "spf/world/occupancy_map.hpp"
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -14,7 +14,7 @@ namespace spf {
 namespace {
 
 /// Ground truth of a box, independent of the map.
-struct Box {
+struct TrueSquare {
   Eigen::Vector2d center;
   double side;
   [[nodiscard]] double distance(const Eigen::Vector2d& p) const {
@@ -25,7 +25,7 @@ struct Box {
 
 /// A walled field of 30 m with boxes, obstacles, peers and one robot's request.
 struct PlannerScene {
-  std::vector<Box> boxes;
+  std::vector<TrueSquare> boxes;
   std::unique_ptr<OccupancyMap> map;
   std::vector<ObstacleTrack> tracks;
   std::vector<Peer> peers;
@@ -35,7 +35,7 @@ struct PlannerScene {
   void finish(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, int robot_id = 3) {
     map = std::make_unique<OccupancyMap>(GridFrame::covering({-15.0, -15.0}, {15.0, 15.0}, 0.1), 2.0);
     map->add_border({-15.0, -15.0}, {15.0, 15.0});
-    for (const Box& box : boxes) {
+    for (const TrueSquare& box : boxes) {
       const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * box.side);
       map->add_box(box.center - half, box.center + half);
     }
@@ -48,7 +48,7 @@ struct PlannerScene {
   }
   [[nodiscard]] double box_clearance(const Eigen::Vector2d& p) const {
     double least = 1e9;
-    for (const Box& box : boxes) least = std::min(least, box.distance(p) - 0.3);
+    for (const TrueSquare& box : boxes) least = std::min(least, box.distance(p) - 0.3);
     return least;
   }
 };
@@ -60,12 +60,12 @@ Eigen::Vector2d draw_place(RandomStream& random, double half_side) {
 }
 
 void draw_boxes(RandomStream& random, int count, double half_side,
-                const std::vector<Eigen::Vector2d>& keep_free, std::vector<Box>& boxes) {
+                const std::vector<Eigen::Vector2d>& keep_free, std::vector<TrueSquare>& boxes) {
   while (static_cast<int>(boxes.size()) < count) {
     const Eigen::Vector2d center = draw_place(random, half_side);
-    const Box box{center, random.uniform(1.0, 2.0)};
+    const TrueSquare box{center, random.uniform(1.0, 2.0)};
     bool fits = true;
-    for (const Box& other : boxes)
+    for (const TrueSquare& other : boxes)
       fits =
           fits && ((other.center - box.center).cwiseAbs().maxCoeff() > 0.5 * (box.side + other.side) + 0.9);
     for (const Eigen::Vector2d& place : keep_free) fits = fits && box.distance(place) > 1.0;
