@@ -40,6 +40,11 @@ TrajectoryMessage message_of(fuzz::Bytes& bytes, double now) {
   message.position_sigma = mostly(0.02);
   message.state = static_cast<PeerState>(bytes.up_to(3));
   message.trajectory = trajectory_of(bytes, now);
+  if (message.sequence % 8 == 7) {
+    const Eigen::Vector2d entry{bytes.number(), bytes.number()};
+    const Eigen::Vector2d exit{bytes.number(), bytes.number()};
+    message.claim = PassageClaim{entry, exit, mostly(now), bytes.up_to(1) > 0, bytes.up_to(1) > 0};
+  }
   return message;
 }
 

@@ -22,6 +22,7 @@ constexpr double kOwnPast =
 HeardMessage as_of_stranger(const TrajectoryMessage& message, double clock_error) {
   TrajectoryMessage stranger = message;
   stranger.priority = std::numeric_limits<int>::min();
+  stranger.claim.reset();  // dated by another clock, and no turn could be agreed with it
   stranger.radius += std::min(std::abs(clock_error) * message.trajectory.max_speed(), kMostAround);
   return stranger;
 }

@@ -36,6 +36,12 @@ enum class PlanAction {
   brake,   ///< it is new and brakes (or steps aside), since there is no plan to follow
 };
 
+/// The robot has to let others pass: to go on beyond where `cost_to_go` [m] is left gains it nothing.
+struct GiveWay {
+  double cost_to_go = 0.0;
+  int peer = -1;  ///< robot number
+};
+
 struct PlanRequest {
   double time = 0.0;                                     ///< [s] start of the new trajectory
   FlatState head;                                        ///< state at that time
@@ -47,8 +53,9 @@ struct PlanRequest {
   const CostToGo* guide = nullptr;        ///< up-to-date cost-to-go of the map and the goal
   const Trajectory* committed = nullptr;  ///< current plan, null after a reset
   bool braking = false;                   ///< the current plan is a braking one
-  bool goal_cut_off = false;     ///< no path leads to the goal; the guide leads as near to it as possible
-  bool keep_candidates = false;  ///< keep every candidate in the result, for display (allocates)
+  bool goal_cut_off = false;        ///< no path leads to the goal; the guide leads as near to it as possible
+  std::optional<GiveWay> give_way;  ///< see Planner::gives_way()
+  bool keep_candidates = false;     ///< keep every candidate in the result, for display (allocates)
 };
 
 /// One trajectory that was considered, for display and statistics.
@@ -101,6 +108,8 @@ class Planner {
   /// Whether the guide may lead through gaps that are hardly wider than the robot: the method then slows down
   /// as they need.
   [[nodiscard]] virtual bool passes_narrow_gaps() const { return false; }
+  /// Whether it stops where PlanRequest::give_way says.
+  [[nodiscard]] virtual bool gives_way() const { return false; }
 };
 
 /// Whether a request can be planned at all: finite numbers, a map and a guide.

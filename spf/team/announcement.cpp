@@ -9,6 +9,12 @@ constexpr double kStandingSpeed = 0.05;  // [1] of max_speed: slower is standing
 constexpr double kStandingTime = 0.5;    // [s]
 constexpr double kArrivedSpeed = 0.1;    // [1] of max_speed
 
+/// Whether peers would decide otherwise.
+bool differ(const std::optional<PassageClaim>& one, const std::optional<PassageClaim>& other) {
+  if (!one || !other) return one.has_value() != other.has_value();
+  return one->inside != other->inside || one->waits != other->waits || one->since != other->since;
+}
+
 }  // namespace
 
 Announcement::Announcement(int robot_id, const AgentParameters& parameters, double time)
@@ -54,13 +60,16 @@ void Announcement::update(double time, const Situation& situation) {
 }
 
 std::optional<TrajectoryMessage> Announcement::message(double time, double next_time,
-                                                       const Trajectory& committed, double position_sigma) {
-  const bool changed = committed.start_time() != last_start_time_ || status_.state != last_state_;
+                                                       const Trajectory& committed, double position_sigma,
+                                                       const std::optional<PassageClaim>& claim) {
+  const bool changed = committed.start_time() != last_start_time_ || status_.state != last_state_ ||
+                       differ(claim, last_claim_);
   const bool due = next_time > next_message_time_ + kTimeTolerance;  // the next chance would be too late
   if (!changed && !due) return std::nullopt;
   next_message_time_ = time + message_period_;
   last_start_time_ = committed.start_time();
   last_state_ = status_.state;
+  last_claim_ = claim;
   TrajectoryMessage message;
   message.robot_id = robot_id_;
   message.priority = priority_;
@@ -70,6 +79,7 @@ std::optional<TrajectoryMessage> Announcement::message(double time, double next_
   message.radius = robot_.radius;
   message.position_sigma = position_sigma;
   message.state = status_.state;
+  message.claim = claim;
   message.trajectory = committed;
   return message;
 }

@@ -7,6 +7,7 @@
 #include "spf/team/agent_parameters.hpp"
 #include "spf/team/agent_status.hpp"
 #include "spf/trajectory/trajectory.hpp"
+#include "spf/world/trajectory_message.hpp"
 
 namespace spf {
 
@@ -32,9 +33,10 @@ class Announcement {
 
   /// The message that is due at a time [s]: after every new trajectory or state, and again before the last
   /// one is message_period old. `next_time` [s] is when this is asked again, `position_sigma` [m] how far the
-  /// robot may be from its trajectory.
+  /// robot may be from its trajectory; `claim` to a narrow place, whose changes are told at once, too.
   [[nodiscard]] std::optional<TrajectoryMessage> message(double time, double next_time,
-                                                         const Trajectory& committed, double position_sigma);
+                                                         const Trajectory& committed, double position_sigma,
+                                                         const std::optional<PassageClaim>& claim = {});
 
  private:
   int robot_id_;
@@ -48,6 +50,7 @@ class Announcement {
   double next_message_time_;       // [s]
   double last_start_time_ = -1.0;  // [s] of the trajectory in the last message
   PeerState last_state_ = PeerState::stopped;
+  std::optional<PassageClaim> last_claim_;
   std::uint32_t sequence_ = 0;
 };
 

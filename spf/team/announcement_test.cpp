@@ -75,6 +75,31 @@ TEST(Announcement, SaysWhyTheRobotStands) {
   EXPECT_EQ(announcement.status().reason, StopCause::arrived);
 }
 
+TEST(Announcement, TellsAtOnceWhatItClaims) {
+  Announcement announcement{4, AgentParameters{}, 0.0};
+  const Trajectory standing = Trajectory::standing({1.0, 0.0}, 0.0, 100.0);
+  announcement.update(0.0, {standing});
+  std::optional<PassageClaim> claim;
+  const auto told = [&](double time) {
+    return announcement.message(time, time + 0.01, standing, 0.0, claim);
+  };
+  EXPECT_TRUE(told(0.0));
+  EXPECT_FALSE(told(0.01));
+  claim = PassageClaim{{2.0, 0.0}, {3.0, 0.0}, 0.02, false, false};
+  const std::optional<TrajectoryMessage> first = told(0.02);
+  ASSERT_TRUE(first && first->claim);
+  EXPECT_EQ(first->claim->since, 0.02);
+  EXPECT_FALSE(told(0.03));
+  claim->waits = true;
+  EXPECT_TRUE(told(0.04));
+  claim->inside = true;
+  EXPECT_TRUE(told(0.05));
+  claim.reset();
+  const std::optional<TrajectoryMessage> last = told(0.06);
+  ASSERT_TRUE(last);
+  EXPECT_FALSE(last->claim);
+}
+
 TEST(Announcement, ARobotThatMeansToGoSoonStandsOnlyWhenItKeepsMeaningTo) {
   Announcement announcement{4, AgentParameters{}, 0.0};
   for (int k = 0; k <= 10; ++k) {

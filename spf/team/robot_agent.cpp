@@ -12,6 +12,7 @@
 #include "spf/team/commitment.hpp"
 #include "spf/team/guide_policy.hpp"
 #include "spf/team/plan_schedule.hpp"
+#include "spf/team/right_of_way.hpp"
 
 namespace spf {
 namespace {
@@ -41,6 +42,7 @@ struct RobotAgent::Implementation {
   Beliefs beliefs;
   std::unique_ptr<Planner> planner;
   GuidePolicy guide;
+  RightOfWay right_of_way;
   Commitment commitment;
   Announcement announcement;
 
@@ -60,6 +62,7 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       beliefs{robot_id, parameters, map},
       planner{parameters.make_planner(parameters)},
       guide{parameters, GuideNeeds::of(*planner), time},
+      right_of_way{parameters.robot, planner->gives_way()},
       commitment{parameters, start, time},
       announcement{robot_id, parameters, time},
       schedule{parameters.team.plan_period, time} {
@@ -73,6 +76,7 @@ void RobotAgent::Implementation::reconfigure(const AgentParameters& changed) {
   parameters = wanted;
   planner = std::move(made);
   guide.reconfigure(parameters, GuideNeeds::of(*planner));
+  right_of_way.reconfigure(parameters.robot, planner->gives_way());
   commitment.reconfigure(parameters);
   announcement.reconfigure(parameters);
 }
@@ -86,14 +90,17 @@ std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now, co
   // 2. A plan, unless there is a cause to stop that no plan can mend.
   if (stop == StopCause::none && !goal) stop = StopCause::no_goal;
   stop_cause = stop;
-  if (stop == StopCause::none)
+  if (stop == StopCause::none) {
     make_plan(now, state, hold);
-  else
+  } else {
+    right_of_way.stop();
     brake(now, stop == StopCause::stuck ? &state : nullptr);
+  }
   // 3. Say how it stands, to the host and to the peers.
   announcement.update(now,
                       {commitment.trajectory(), commitment.braking(), goal, stop, standing_cause(now, hold)});
-  return announcement.message(now, schedule.next(), commitment.trajectory(), position_sigma(state));
+  return announcement.message(now, schedule.next(), commitment.trajectory(), position_sigma(state),
+                              right_of_way.claim());
 }
 
 /// `held_at`: where a robot is that does not move as it is told, nor will brake as it is told; else null.
@@ -116,6 +123,8 @@ void RobotAgent::Implementation::make_plan(double now, const StateEstimate& stat
   commitment.begin_plan(state, request, hold);
   if (std::exchange(too_fast, false)) request.committed = nullptr;  // there is none to keep
   request.position_sigma = position_sigma(state);
+  right_of_way.update(now, request.head.position_world, guide.cost_to_go(), request.world);
+  request.give_way = right_of_way.give_way();
   planner->plan(request, result);
   set_risk(request, parameters.robot.radius, result);
   commitment.follow(request, result);

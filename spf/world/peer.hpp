@@ -18,6 +18,9 @@ struct Peer {
   double growth = 0.0;   ///< [m] added to the radius of an expired peer
   double stood = 0.0;    ///< [s] for so long it has stood in one place, stopped or arrived
   Shared<Trajectory> trajectory{Trajectory{}};
+  /// To a narrow place on its way; null: none. Part of the message that `trajectory` is part of, and lives as
+  /// long.
+  const PassageClaim* claim = nullptr;
 
   [[nodiscard]] Rank rank() const { return {priority, robot_id}; }
   /// Position at an absolute time [m]; for an expired peer the last known position.

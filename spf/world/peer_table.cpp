@@ -39,6 +39,7 @@ MessageVerdict PeerTable::receive(const HeardMessage& heard, double now) {
   peer.expired = false;
   peer.growth = 0.0;
   peer.trajectory = heard.trajectory();
+  peer.claim = heard->claim ? &*heard->claim : nullptr;
   watch_standing(entry, is_new, now);
   return verdict;
 }
@@ -72,7 +73,7 @@ bool PeerTable::well_formed(const TrajectoryMessage& message, double now) const 
                        std::isfinite(message.expiry_time) && message.radius > 0.0 &&
                        message.radius <= kLargestRadius && message.position_sigma >= 0.0 &&
                        believable(message.position_sigma);
-  if (!numbers) return false;
+  if (!numbers || (message.claim && !believable(*message.claim))) return false;
   const double latest = now + parameters_.clock_tolerance;
   return message.sent_time <= latest && message.trajectory.start_time() <= latest &&
          message.sent_time >= now - kOldestMessage && message.expiry_time >= message.sent_time;
@@ -102,6 +103,7 @@ const std::vector<Peer>& PeerTable::peers(double now) {
     if (!peer.expired && now > entry.expiry_time) {
       // The last known position is where the peer's plan puts it at the expiry time.
       peer.expired = true;
+      peer.claim = nullptr;
       constexpr double kLong = 1.0;  // [s] any duration will do: a trajectory rests at its ends
       peer.trajectory =
           Trajectory::standing(peer.trajectory->position(entry.expiry_time), entry.expiry_time, kLong);

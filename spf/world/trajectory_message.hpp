@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "spf/trajectory/trajectory.hpp"
+#include "spf/world/passage_claim.hpp"
 
 namespace spf {
 
@@ -19,7 +21,8 @@ struct TrajectoryMessage {
   double position_sigma =
       0.0;  ///< [m] how far the robot may be from its trajectory (own pose and tracking error)
   PeerState state = PeerState::stopped;
-  Trajectory trajectory;  ///< world, absolute time
+  std::optional<PassageClaim> claim;  ///< to a narrow place on its way
+  Trajectory trajectory;              ///< world, absolute time
 };
 
 }  // namespace spf

@@ -83,6 +83,25 @@ geometry_msgs::Point point_of(const Eigen::Vector2d& position) {
   return point;
 }
 
+void fill_claim(const std::optional<spf::PassageClaim>& claim, const ClockEdge& clock,
+                spf_empc_msgs::Trajectory& message) {
+  message.claimed = claim ? 1 : 0;
+  if (!claim) return;
+  message.claim_inside = claim->inside ? 1 : 0;
+  message.claim_waits = claim->waits ? 1 : 0;
+  message.claim_since = clock.time(claim->since);
+  message.claim_entry = point_of(claim->entry_world);
+  message.claim_exit = point_of(claim->exit_world);
+}
+
+std::optional<spf::PassageClaim> claim_of(const spf_empc_msgs::Trajectory& message, const ClockEdge& clock) {
+  if (message.claimed == 0) return std::nullopt;
+  const auto position = [](const geometry_msgs::Point& point) { return Eigen::Vector2d{point.x, point.y}; };
+  return spf::PassageClaim{position(message.claim_entry), position(message.claim_exit),
+                           clock.seconds(message.claim_since), message.claim_inside != 0,
+                           message.claim_waits != 0};
+}
+
 Eigen::Vector2d moved(const spf::Pose2& frame, const Eigen::Vector2d& position) {
   return frame.position_world + Eigen::Rotation2D<double>{frame.heading} * position;
 }
@@ -114,6 +133,7 @@ spf_empc_msgs::Trajectory to_message(const StampedTrajectory& stamped, const Clo
   message.expiry = clock.time(from.expiry_time);
   message.radius = from.radius;
   message.position_sigma = from.position_sigma;
+  fill_claim(from.claim, clock, message);
   if (stamped.observed) message.observed = clock.time(*stamped.observed);
   message.start = clock.time(from.trajectory.start_time());
   for (int i = 0; i < from.trajectory.piece_count(); ++i) {
@@ -141,6 +161,8 @@ Converted<StampedTrajectory> from_message(const spf_empc_msgs::Trajectory& messa
     return Result::refused("radius is not above 0");
   if (!(message.position_sigma >= 0.0 && std::isfinite(message.position_sigma)))
     return Result::refused("position_sigma is negative or not finite");
+  const std::optional<spf::PassageClaim> claim = claim_of(message, clock);
+  if (claim && !spf::believable(*claim)) return Result::refused("its claim to a passage is not finite");
   if (std::string why = bad_pieces(message); !why.empty()) return Result::refused(std::move(why));
   const std::optional<spf::HeadingProfile> heading = heading_of(message, clock);
   if (!heading) return Result::refused("its heading does not turn to its target");
@@ -154,6 +176,7 @@ Converted<StampedTrajectory> from_message(const spf_empc_msgs::Trajectory& messa
   to.expiry_time = clock.seconds(message.expiry);
   to.radius = message.radius;
   to.position_sigma = message.position_sigma;
+  to.claim = claim;
   to.state = static_cast<spf::PeerState>(message.state);
   to.trajectory = trajectory_of(message, clock);
   to.trajectory.set_heading(*heading);

@@ -38,6 +38,12 @@ spf::TrajectoryMessage some_message(spf::RandomStream& random) {
   message.radius = random.uniform(0.1, 1.0);
   message.position_sigma = random.uniform(0.0, 0.1);
   message.state = static_cast<spf::PeerState>(static_cast<int>(random.uniform(0.0, 3.99)));
+  if (random.uniform(0.0, 1.0) < 0.5)
+    message.claim = spf::PassageClaim{{random.normal(), 2.0},
+                                      {random.normal(), 3.0},
+                                      message.sent_time - 1.0,
+                                      random.uniform(0.0, 1.0) < 0.5,
+                                      random.uniform(0.0, 1.0) < 0.5};
   message.trajectory = trajectory;
   return message;
 }
@@ -68,6 +74,14 @@ TEST(Conversions, TrajectoryThereAndBack) {
     EXPECT_EQ(got.radius, sent.radius);
     EXPECT_EQ(got.position_sigma, sent.position_sigma);
     EXPECT_EQ(got.state, sent.state);
+    ASSERT_EQ(got.claim.has_value(), sent.claim.has_value());
+    if (sent.claim) {
+      EXPECT_EQ(got.claim->entry_world, sent.claim->entry_world);
+      EXPECT_EQ(got.claim->exit_world, sent.claim->exit_world);
+      EXPECT_EQ(got.claim->inside, sent.claim->inside);
+      EXPECT_EQ(got.claim->waits, sent.claim->waits);
+      EXPECT_NEAR(got.claim->since, sent.claim->since, 1e-9);
+    }
     ASSERT_EQ(got.trajectory.piece_count(), sent.trajectory.piece_count());
     EXPECT_NEAR(got.trajectory.start_time(), sent.trajectory.start_time(), 1e-9);
     for (int k = 0; k < sent.trajectory.piece_count(); ++k) {

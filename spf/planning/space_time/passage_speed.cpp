@@ -96,13 +96,15 @@ void PassageSpeed::prepare(const PlanRequest& request) {
   marks_.clear();
   blocker_ = nullptr;
   stop_cost_ = exit_cost_ = 0.0;
+  waits_ = false;
   const CostToGo& guide = *request.guide;
   guide.shortest_path(request.head.position_world, way_);
-  bool narrow = false;
-  look_along([&](const Eigen::Vector2d& here) {
-    narrow = straight_speed(request, room_at(request, here).least()) < robot_.max_speed;
-    return !narrow;
-  });
+  bool narrow = request.give_way.has_value();
+  if (!narrow)
+    look_along([&](const Eigen::Vector2d& here) {
+      narrow = straight_speed(request, room_at(request, here).least()) < robot_.max_speed;
+      return !narrow;
+    });
   if (!narrow) return;
   look_along([&](const Eigen::Vector2d& here) {
     const Room room = room_at(request, here);
@@ -114,6 +116,13 @@ void PassageSpeed::prepare(const PlanRequest& request) {
   keep_legs();
   slow_down_in_turns();
   stop_before_what_stands();
+  if (request.give_way && request.give_way->cost_to_go >= stop_cost_) {
+    waits_ = true;
+    stop_cost_ = request.give_way->cost_to_go;
+    exit_cost_ = 0.0;
+    for (Mark& mark : marks_)
+      if (mark.cost <= stop_cost_) mark.speed = 0.0;
+  }
   for (std::size_t k = marks_.size(); k-- > 1;) {
     const double step = (marks_[k].position_world - marks_[k - 1].position_world).norm();
     const double braked =

@@ -40,11 +40,20 @@ class PassageSpeed {
                                                          double speed) const;
   /// What stands in the way, of the guide; null: nothing.
   [[nodiscard]] const StandingDisc* blocked_by() const { return blocker_; }
+  /// The robot has to stop on its way, before that or to let others pass.
+  [[nodiscard]] bool stands_before() const { return waits_ || blocker_ != nullptr; }
   /// What is left to go [m] for who wants to get on: to come nearer to something that stands in the way than
   /// where the robot stops is no progress.
   [[nodiscard]] double left_to_go(double cost_to_go) const {
-    return cost_to_go < stop_cost_ && cost_to_go > exit_cost_ ? stop_cost_ : cost_to_go;
+    if (cost_to_go >= stop_cost_ || cost_to_go <= exit_cost_) return cost_to_go;
+    return waits_ ? 2.0 * stop_cost_ - cost_to_go : stop_cost_;  // who is to let others pass makes room
   }
+  /// The robot is nearer to a passage than it may wait.
+  [[nodiscard]] bool in_the_way(double cost_to_go) const {
+    return waits_ && cost_to_go < stop_cost_ - kTooNear * robot_.radius;
+  }
+
+  static constexpr double kTooNear = 0.7;  ///< [1] of the radius
 
  private:
   /// Beyond the margin to the nearest surface, and to the nearest of what stands [m].
@@ -81,6 +90,7 @@ class PassageSpeed {
   std::vector<Leg> legs_;    // of the way, as far as the robot can come
   std::vector<Mark> marks_;  // by falling cost, at most a third of the radius apart
   const StandingDisc* blocker_ = nullptr;
+  bool waits_ = false;
   double stop_cost_ = 0.0;  // [m] where the robot stops before something that stands; 0: nothing does
   double exit_cost_ = 0.0;  // [m] behind it
 };

@@ -232,7 +232,7 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
   }
   const Eigen::Vector2d still = Eigen::Vector2d::Zero();
   const bool slow = request.head.velocity_world.norm() < 0.3 * robot_.max_speed;
-  const double bonus = parameters_.stand_bonus * (passage_.blocked_by() != nullptr ? kBlockedStand : 1.0);
+  const double bonus = parameters_.stand_bonus * (passage_.stands_before() ? kBlockedStand : 1.0);
   consider({still, 0.0, MotionPrimitive::Then::brake}, request, result, slow ? bonus : 0.0);
   if (direct.worst >= 0) {  // to wait helps against what moves; a surface would be put off again and again
     consider({still, parameters_.short_sidestep, MotionPrimitive::Then::goal}, request, result);
@@ -245,8 +245,7 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
 void SpaceTimePlanner::lose_patience(const PlanRequest& request) {
   const bool asked_all_the_time = request.time - asked_time_ < kPauseTime && request.time >= asked_time_;
   asked_time_ = request.time;
-  const bool on_its_way = goal_ == request.goal_world && asked_all_the_time &&
-                          passage_.blocked_by() == nullptr &&
+  const bool on_its_way = goal_ == request.goal_world && asked_all_the_time && !passage_.stands_before() &&
                           request.guide->cost_to_go(request.head.position_world) > 2.0 * robot_.radius;
   if (!on_its_way || request.head.velocity_world.norm() > kCreepSpeed * robot_.max_speed)
     waits_since_ = request.time;
@@ -280,7 +279,10 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   const Score direct_score = score(trial_, request, std::numeric_limits<double>::infinity());
   consider(direct, request, result);
   // 3. Else all primitives.
-  if (direct_score.risk > parameters_.cost_threshold) consider_all(request, direct_score, result);
+  const bool in_the_way = passage_.in_the_way(request.guide->cost_to_go(request.head.position_world));
+  if (in_the_way || direct_score.risk > parameters_.cost_threshold)
+    consider_all(request, direct_score, result);
+  if (request.give_way) result.blocking_peer = request.give_way->peer;
   if (const StandingDisc* blocker = passage_.blocked_by())
     (blocker->is_peer ? result.blocking_peer : result.blocking_track) = blocker->id;
   // 4. The best of them, smoothed, is the plan.

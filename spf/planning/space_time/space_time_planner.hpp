@@ -27,6 +27,7 @@ class SpaceTimePlanner final : public Planner {
   /// choice that fails it is driven all the same, as the one with the least cost.
   void plan(const PlanRequest& request, PlanResult& result) override;
   [[nodiscard]] bool passes_narrow_gaps() const override { return true; }
+  [[nodiscard]] bool gives_way() const override { return true; }
 
  private:
   /// Cost of a roll-out in seconds, split for the record.

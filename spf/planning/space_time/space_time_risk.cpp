@@ -149,10 +149,12 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   disc.id = peer.robot_id;
   disc.is_peer = true;
   disc.speed_margin = disc.speed_sigma = 0.0;
-  // A stopped peer cannot be asked to yield; a moving one of lower priority will. And a robot at its goal is
-  // gone round.
+  // A stopped peer cannot be asked to yield; a moving one of lower priority will, and one that waits to let
+  // others pass. And a robot at its goal is gone round.
+  const bool waits = peer.claim != nullptr && peer.claim->waits;
   const bool yields =
-      goes_first(request.world.rank(), peer.rank()) && peer.state == PeerState::moving && !peer.expired;
+      !request.give_way && !peer.expired &&
+      (waits || (goes_first(request.world.rank(), peer.rank()) && peer.state == PeerState::moving));
   disc.priority_weight = yields ? kLowerPriorityWeight : 1.0;
   if (at_goal_) disc.priority_weight *= kAtGoalWeight;
   // What it says of its plan counts for more than what it says of its state.
