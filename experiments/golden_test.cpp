@@ -150,7 +150,8 @@ const std::vector<GoldenScenes>& all_scenes() {
                                                 {"field", {{"robots=5"}}},
                                                 {"ped", {}},
                                                 {"clutter", {{"trial.time_limit=30"}}},
-                                                {"doors", {{"trial.time_limit=30"}}}};
+                                                {"doors", {{"trial.time_limit=30"}}},
+                                                {"corridor", {{"trial.time_limit=40"}}}};
   return scenes;
 }
 
