@@ -37,6 +37,8 @@ void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spa
   look_between(roll_out.position_world[static_cast<std::size_t>(roll_out.steps)], stop, speed, 0.0, 2);
 }
 
+constexpr double kProgress = 0.3;   // [1] of the radius
+constexpr double kElsewhere = 3.0;  // [1] likewise: so much farther it has another way, or was pushed off
 constexpr std::array<double, 3> kPaces{0.5, 0.25,
                                        0.12};  // [1] of max_speed: along the guide, where it is tight
 constexpr double kSlowFraction = 0.5;          // [1] of max_speed: the second speed of the sidesteps
@@ -243,14 +245,22 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
 }
 
 void SpaceTimePlanner::lose_patience(const PlanRequest& request) {
-  const bool asked_all_the_time = request.time - asked_time_ < kPauseTime && request.time >= asked_time_;
-  asked_time_ = request.time;
-  const bool on_its_way = goal_ == request.goal_world && asked_all_the_time && !passage_.stands_before() &&
+  const bool asked_all_the_time =
+      request.time - progress_.asked_time < kPauseTime && request.time >= progress_.asked_time;
+  progress_.asked_time = request.time;
+  const bool on_its_way = progress_.goal == request.goal_world && asked_all_the_time &&
+                          !passage_.stands_before() &&
                           request.guide->cost_to_go(request.head.position_world) > 2.0 * robot_.radius;
-  if (!on_its_way || request.head.velocity_world.norm() > kCreepSpeed * robot_.max_speed)
-    waits_since_ = request.time;
-  goal_ = request.goal_world;
-  const double waited = (request.time - waits_since_) / kPatience;
+  // To hover before a gap is no progress either.
+  const double left = request.guide->cost_to_go(request.head.position_world);
+  const bool comes_nearer = left < progress_.nearest - kProgress * robot_.radius;
+  if (comes_nearer || !on_its_way || left > progress_.nearest + kElsewhere * robot_.radius)
+    progress_.nearest = left;
+  const bool hovers = passage_.limits() && !comes_nearer;
+  if (!on_its_way || (!hovers && request.head.velocity_world.norm() > kCreepSpeed * robot_.max_speed))
+    progress_.waits_since = request.time;
+  progress_.goal = request.goal_world;
+  const double waited = (request.time - progress_.waits_since) / kPatience;
   surface_price_ = std::max(kLeastPrice, 1.0 / (1.0 + waited * waited));
 }
 

@@ -60,11 +60,16 @@ class SpaceTimePlanner final : public Planner {
   SpaceTimeRisk risk_;
   SightLimit sight_;
   PassageSpeed passage_;
-  double waits_since_ =
-      std::numeric_limits<double>::infinity();  // [s] on its way to goal_, no faster than a creep
-  double asked_time_ = -std::numeric_limits<double>::infinity();  // [s] of the last plan
-  Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();                // [m]
-  double surface_price_ = 1.0;                                    // [1] of the risk of surfaces
+  /// How the robot gets on.
+  struct Progress {
+    Eigen::Vector2d goal = Eigen::Vector2d::Zero();                // [m]
+    double asked_time = -std::numeric_limits<double>::infinity();  // [s] of the last plan
+    double nearest = std::numeric_limits<double>::infinity();      // [m] to go, the least of late
+    double waits_since =
+        std::numeric_limits<double>::infinity();  // [s] no faster than a creep, or to and fro
+  };
+  Progress progress_;
+  double surface_price_ = 1.0;  // [1] of the risk of surfaces
   RollOut trial_;
   RollOut best_;
   Score best_score_;
