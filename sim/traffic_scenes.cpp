@@ -1,5 +1,6 @@
 #include "sim/traffic_scenes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
