@@ -7,6 +7,7 @@
 
 #include "sim/geometry.hpp"
 #include "sim/pedestrian_scene.hpp"
+#include "sim/task_between.hpp"
 #include "sim/tight_scenes.hpp"
 #include "sim/traffic_scenes.hpp"
 #include "sim/uniform_grid.hpp"
@@ -29,14 +30,6 @@ Eigen::Vector2d draw_point(RandomStream& random, double half_width, double half_
 
 Eigen::Vector2d polar(double length, double angle) {
   return {length * std::cos(angle), length * std::sin(angle)};
-}
-
-RobotTask task_between(const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
-  RobotTask task;
-  const Eigen::Vector2d to_goal = goal - start;
-  task.start = {start, std::atan2(to_goal.y(), to_goal.x())};  // heading towards the goal
-  task.goal_world = goal;
-  return task;
 }
 
 /// Draws `count` things; `draw_one` returns false when its draw is rejected. False after kMaxTries tries.

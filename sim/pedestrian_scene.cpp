@@ -1,11 +1,11 @@
 #include "sim/pedestrian_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 #include "sim/crowd.hpp"
+#include "sim/task_between.hpp"
 
 namespace spf::sim {
 namespace {
@@ -33,10 +33,7 @@ RobotTask task_from_side(const Box& extent, int robot, int robots) {
   const int axis = side < 2 ? 0 : 1;
   start[axis] = side % 2 == 0 ? extent.low[axis] : extent.high[axis];
   goal[axis] = side % 2 == 0 ? extent.high[axis] : extent.low[axis];
-  RobotTask task;
-  task.start = {start, std::atan2(goal.y() - start.y(), goal.x() - start.x())};
-  task.goal_world = goal;
-  return task;
+  return task_between(start, goal);
 }
 
 bool everybody_away(Crowd& crowd, double time, const std::vector<RobotTask>& robots) {

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/task_between.hpp"
+
 namespace spf::sim {
 namespace {
 
@@ -96,18 +98,6 @@ bool passable(const Scenario& scenario, double radius) {
   return false;
 }
 
-void add_task(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Scenario& scenario) {
-  RobotTask task;
-  const Eigen::Vector2d to_goal = goal - start;
-  task.start = {start, std::atan2(to_goal.y(), to_goal.x())};
-  task.goal_world = goal;
-  scenario.robots.push_back(task);
-}
-
-}  // namespace
-
-namespace {
-
 /// Half of the narrowest place that a family promises [m], and the layout's key that says so.
 std::pair<double, const char*> promised_room(const FamilySetup& setup) {
   switch (setup.family) {
@@ -150,7 +140,7 @@ bool draw_clutter(RandomStream& random, const LayoutParameters& layout, Scenario
   // Nobody goes round outside.
   const double side = PillarGrid::position(kColumns, 0).x();
   scenario.border = Box{{-side, -kPitch * end}, {side, kPitch * end}};
-  add_task({0.0, -kEnd}, {0.0, kEnd}, scenario);
+  scenario.robots.push_back(task_between({0.0, -kEnd}, {0.0, kEnd}));
   return passable(scenario, layout.passable_radius);
 }
 
@@ -166,7 +156,7 @@ bool draw_doors(RandomStream& random, const LayoutParameters& layout, Scenario& 
   if (scenario.boxes[0].low.y() >= kPlace.high.y() || scenario.boxes[1].high.y() <= kPlace.low.y())
     return false;
   const double start = random.uniform(-3.0, 3.0);
-  add_task({-4.0, start}, {4.0, random.uniform(-3.0, 3.0)}, scenario);
+  scenario.robots.push_back(task_between({-4.0, start}, {4.0, random.uniform(-3.0, 3.0)}));
   return true;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/task_between.hpp"
+
 namespace spf::sim {
 namespace {
 
@@ -62,11 +64,7 @@ bool place_robots(RandomStream& random, const TwoRooms& rooms, int robots, Scena
     const int side = i % 2 == 0 ? -1 : 1;
     if (!draw_place(random, rooms, side, radius, starts)) return false;
     if (!draw_place(random, rooms, -side, radius, goals)) return false;
-    RobotTask task;
-    const Eigen::Vector2d to_goal = goals.back() - starts.back();
-    task.start = {starts.back(), std::atan2(to_goal.y(), to_goal.x())};
-    task.goal_world = goals.back();
-    scenario.robots.push_back(task);
+    scenario.robots.push_back(task_between(starts.back(), goals.back()));
   }
   return true;
 }
