@@ -77,14 +77,14 @@ TEST_F(CampaignProgram, RunsEveryCellAndKeepsWhatMadeIt) {
   for (const char* name : {"campaign.yaml", "run.json", "summary.csv", "summary.jsonl"})
     EXPECT_TRUE(fs::exists(folder_ / "whole" / name)) << name;
   const std::vector<Json> trials = trials_in("whole");
-  int overtime = 0;
+  int timeouts = 0;
   for (const Json& trial : trials) {
     if (trial.value("condition", "") != "hopeless") continue;
-    ++overtime;
+    ++timeouts;
     EXPECT_EQ(trial.at("outcome"), "overtime");  // nobody drives 4 m in 1 s
     EXPECT_EQ(trial.at("cause").at("stand_reason"), "moving");
   }
-  EXPECT_EQ(overtime, 2 * 6);
+  EXPECT_EQ(timeouts, 2 * 6);
   // The scenario of a row, run by itself, is that row's trial.
   const Finished again = run("run whole/cells/scene_orca_walk_1_full_as-it-is_*.yaml --first 3 --out again");
   ASSERT_NE(again.status, 2) << again.error;

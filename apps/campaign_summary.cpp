@@ -66,7 +66,7 @@ std::string campaign_table(const std::vector<ResultRow>& rows) {
          {row.noise, to_text(row.level), row.tracking, row.method, std::to_string(row.trials),
           fixed(100.0 * row.success_rate, 1),
           fixed(100.0 * row.wilson_low, 1) + " - " + fixed(100.0 * row.wilson_high, 1),
-          fixed(100.0 * row.overtime / std::max(row.trials, 1), 1), fixed(row.travel_time_ratio, 3),
+          fixed(100.0 * row.timeout / std::max(row.trials, 1), 1), fixed(row.travel_time_ratio, 3),
           fixed(row.travel_time_mean, 2), fixed(row.optimiser_calls_per_robot, 1),
           fixed(row.plan_ms_median, 3)})
       cells.push_back(cell);

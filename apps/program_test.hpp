@@ -65,7 +65,7 @@ class Program : public testing::Test {
   }
   ~Program() override { fs::remove_all(folder_); }
 
-  /// One robot, a short way, nothing in it; the trial ends within a few simulated seconds.
+  /// One robot, a short path, nothing in it; the trial ends within a few simulated seconds.
   static constexpr const char* kGood =
       "family: explicit\n"
       "robots: [{start: [0, 0], goal: [2, 0]}]\n"

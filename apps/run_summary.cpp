@@ -91,7 +91,7 @@ std::string summary_text(const RunConfiguration& config, const std::vector<Trial
   else
     add("success", success_text(row));
   if (!single)
-    add("overtime | collision", std::to_string(row.overtime) + " | " + std::to_string(row.collision));
+    add("timeout | collision", std::to_string(row.timeout) + " | " + std::to_string(row.collision));
   if (row.crossings > 0) {
     add("crossings", crossings_text(row));
     add("contacts while moving", rate_text(row.contacts_moving, row));

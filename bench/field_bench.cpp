@@ -35,10 +35,10 @@ template <class Query>
 void ask_field(benchmark::State& state, const Query& query) {
   RandomStream random{2};
   const ProbabilityField field{draw_obstacle(random), 0.3, FieldParameters{}};
-  std::vector<Eigen::Vector2d> places;
-  for (int i = 0; i < 256; ++i) places.emplace_back(field.center_world() + 0.7 * random.normal2());
+  std::vector<Eigen::Vector2d> positions;
+  for (int i = 0; i < 256; ++i) positions.emplace_back(field.center_world() + 0.7 * random.normal2());
   std::size_t next = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(query(field, places[next++ % places.size()]));
+  for (auto _ : state) benchmark::DoNotOptimize(query(field, positions[next++ % positions.size()]));
 }
 
 void field_mahalanobis(benchmark::State& state) {

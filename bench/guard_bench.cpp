@@ -24,10 +24,10 @@ RangeScan room(int beams) {
   scan.angle_increment = 2.0 * kPi / beams;
   for (int i = 0; i < beams; ++i) {
     const double angle = scan.angle_min + i * scan.angle_increment;
-    const Eigen::Vector2d way{std::cos(angle), std::sin(angle)};
-    double range = 3.0 / std::max(std::abs(way.x()), std::abs(way.y()));
+    const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
+    double range = 3.0 / std::max(std::abs(direction.x()), std::abs(direction.y()));
     for (const Eigen::Vector2d& leg : legs) {
-      const double along = leg.dot(way);
+      const double along = leg.dot(direction);
       const double room = 0.05 * 0.05 - (leg.squaredNorm() - along * along);
       if (along > 0.0 && room > 0.0) range = std::min(range, along - std::sqrt(room));
     }

@@ -108,9 +108,9 @@ class Onlooker {
     const std::size_t obstacles = discs_.size();
     for (std::size_t k = 0; k < frame.robots->size(); ++k) {
       if (k == static_cast<std::size_t>(robot_) || (*frame.robots)[k].gone) continue;
-      const Eigen::Vector2d place = (*frame.robots)[k].pose.position_world;
-      discs_.push_back({place, radius_});
-      peers_.push_back({place, 1.5 * radius_});
+      const Eigen::Vector2d position = (*frame.robots)[k].pose.position_world;
+      discs_.push_back({position, radius_});
+      peers_.push_back({position, 1.5 * radius_});
     }
     sensor_.sweep(self.pose, discs_, scan_);
     const auto outside = static_cast<std::size_t>(
@@ -142,12 +142,12 @@ class Onlooker {
   }
 
   /// The confirmed track of an obstacle: its last one while it is near, otherwise the nearest.
-  const spf::ScanTrack* track_of(const Eigen::Vector2d& place, double radius, int last) {
+  const spf::ScanTrack* track_of(const Eigen::Vector2d& position, double radius, int last) {
     const spf::ScanTrack* best = nullptr;
     double nearest = kSameObject;
     for (std::size_t t = 0; t < perception_.tracks().size(); ++t) {
       const spf::ScanTrack& track = perception_.tracks()[t];
-      const double distance = (track.position() - place).norm();
+      const double distance = (track.position() - position).norm();
       if (distance < kSameObject + radius) explained_[t] = 1;
       if (!track.confirmed || distance >= kSameObject) continue;
       if (track.id != last && distance >= nearest) continue;
@@ -159,11 +159,11 @@ class Onlooker {
 
   void compare_obstacle(const spf::sim::DynamicObstacle& truth, std::size_t k, double time,
                         Quality& quality) {
-    const Eigen::Vector2d place = discs_[k].position_world;
+    const Eigen::Vector2d position = discs_[k].position_world;
     Acquaintance& known = known_[truth.id];
     if (shown_[k] > 0) known.last_shown = time;
     if (time - known.last_shown > kForgotten) known.track = -1;
-    const spf::ScanTrack* track = track_of(place, truth.radius, known.track);
+    const spf::ScanTrack* track = track_of(position, truth.radius, known.track);
     if (shown_[k] < kVisibleReturns) {
       known.visible_since = -1.0;
       return;
@@ -185,11 +185,11 @@ class Onlooker {
     }
     known.track = track->id;
     const bool old = time - known.confirmed_since > 1.0;
-    quality.position.push_back((track->position() - place).norm());
+    quality.position.push_back((track->position() - position).norm());
     if (old) quality.velocity.push_back((track->velocity() - truth.velocity_world).norm());
     for (const spf::ObstacleTrack& believed : believed_.tracks()) {
       if (believed.id != track->id) continue;
-      quality.believed_position.push_back((believed.state.position_world - place).norm());
+      quality.believed_position.push_back((believed.state.position_world - position).norm());
       if (old)
         quality.believed_velocity.push_back((believed.state.velocity_world - truth.velocity_world).norm());
     }

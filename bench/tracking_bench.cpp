@@ -133,9 +133,9 @@ BENCHMARK(BM_Observer)->ArgName("kalman")->Arg(0)->Arg(1);
 
 /// A smooth wavy line driven at about 0.8 m/s.
 Trajectory wavy() {
-  Eigen::Matrix2Xd places(2, 31);
-  for (int i = 0; i <= 30; ++i) places.col(i) << 0.35 * i, std::sin(0.25 * i);
-  return plan_through(places, 0.5, {0.7, 0.5}, {0.7, 0.0},
+  Eigen::Matrix2Xd positions(2, 31);
+  for (int i = 0; i <= 30; ++i) positions.col(i) << 0.35 * i, std::sin(0.25 * i);
+  return plan_through(positions, 0.5, {0.7, 0.5}, {0.7, 0.0},
                       HeadingProfile{0.0, HeadingState{}, 2.0, 0.5, 1.0});
 }
 

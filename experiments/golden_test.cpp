@@ -135,7 +135,7 @@ GoldenRow row_of(const std::vector<TrialRecord>& records) {
 
 constexpr int kTrials = 10;  // of every family and method
 
-/// A family's scenes, full loop. Dear ones have fewer robots.
+/// A family's scenes, full loop. Costly ones have fewer robots.
 struct GoldenScenes {
   const char* family;
   std::vector<Setting> settings;

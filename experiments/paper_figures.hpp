@@ -14,7 +14,7 @@ struct PaperTable2Row {
   double level;                      ///< [1] multiple of Sigma
   std::string_view method;           ///< our name
   std::string_view label;            ///< the paper's
-  double success, overtime;          ///< [%]
+  double success, timeout;           ///< [%]
   PaperTriple distance, path, time;  ///< [m], [m], [s]
   double iterations;                 ///< optimiser calls per robot and trial
 };
@@ -23,8 +23,8 @@ struct PaperTable3Row {
   std::string_view condition;  ///< of scenarios/experiments/table3.yaml
   std::string_view method;
   std::string_view label;
-  double success, overtime;  ///< [%]
-  double time;               ///< [s]
+  double success, timeout;  ///< [%]
+  double time;              ///< [s]
 };
 
 /// Null when the paper has no such row.

@@ -25,7 +25,7 @@ double measured(double duration) {
   return duration > 0.0 ? duration : kUnknown;
 }
 
-// ---- the place
+// ---- the scene
 // -----------------------------------------------------------------------------------------------------
 
 ReplayBox bounds_of(const sim::Scenario& scenario) {
@@ -53,13 +53,13 @@ ReplayBox bounds_of(const sim::Scenario& scenario) {
 /// A thin wall as small boxes along it, since the page draws boxes alone.
 void add_wall(std::vector<ReplayBox>& boxes, const sim::Segment& wall) {
   constexpr double kThickness = 0.03;  // [m] as drawn
-  const Eigen::Vector2d way = wall.to - wall.from;
-  const bool along_axis = way.x() == 0.0 || way.y() == 0.0;
-  const int pieces = along_axis ? 1 : static_cast<int>(std::clamp(std::ceil(way.norm() / 0.1), 1.0, 500.0));
+  const Eigen::Vector2d span = wall.to - wall.from;
+  const bool along_axis = span.x() == 0.0 || span.y() == 0.0;
+  const int pieces = along_axis ? 1 : static_cast<int>(std::clamp(std::ceil(span.norm() / 0.1), 1.0, 500.0));
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kThickness);
   for (int i = 0; i < pieces; ++i) {
-    const Eigen::Vector2d from = wall.from + way * (static_cast<double>(i) / pieces);
-    const Eigen::Vector2d to = wall.from + way * ((i + 1.0) / pieces);
+    const Eigen::Vector2d from = wall.from + span * (static_cast<double>(i) / pieces);
+    const Eigen::Vector2d to = wall.from + span * ((i + 1.0) / pieces);
     boxes.push_back({point(from.cwiseMin(to) - half), point(from.cwiseMax(to) + half)});
   }
 }
@@ -79,7 +79,7 @@ void add_map(ReplayData& data, const sim::StaticMap& map) {
          corner(block.end_column, block.end_row), corner(block.first_column, block.end_row)});
 }
 
-void describe_place(ReplayData& data, const sim::Scenario& scenario) {
+void describe_scene(ReplayData& data, const sim::Scenario& scenario) {
   data.bounds = bounds_of(scenario);
   for (const sim::Box& box : scenario.boxes) data.shapes.boxes.push_back({point(box.low), point(box.high)});
   for (const sim::Segment& wall : scenario.walls) add_wall(data.shapes.boxes, wall);
@@ -318,7 +318,7 @@ ReplayData replay_data(const RunConfiguration& config, const FinishedTrial& tria
   data.states.clear();
   data.frame_interval = recording.frame_interval;
   describe_outcome(data, trial.record);
-  describe_place(data, recording.scenario);
+  describe_scene(data, recording.scenario);
   describe_dynamic_obstacles(data, recording, config);
   describe_robots(data, recording);
   for (const sim::RecordedEvent& event : recording.events) data.events.push_back(event_of(event));

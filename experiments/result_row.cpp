@@ -35,7 +35,7 @@ void count_outcome(ResultRow& row, sim::TrialOutcome outcome) {
       ++row.success;
       return;
     case sim::TrialOutcome::timeout:
-      ++row.overtime;
+      ++row.timeout;
       return;
     case sim::TrialOutcome::collision:
       ++row.collision;

@@ -15,7 +15,7 @@ struct ResultRow {
   double level = 0.0;  ///< [1]
   std::string tracking;
   std::uint64_t seed = 0;
-  int trials = 0, success = 0, overtime = 0, collision = 0;
+  int trials = 0, success = 0, timeout = 0, collision = 0;
   double success_rate = kNotKnown, wilson_low = 0.0, wilson_high = 1.0;  ///< [1] with the 95 % interval
   // Means over robots and successful trials; ratios to the obstacle-free rest-to-rest optimum.
   double path_length_mean = kNotKnown;   ///< [m]
@@ -50,7 +50,7 @@ struct ResultRow {
     visit("seed", self.seed);
     visit("trials", self.trials);
     visit("success", self.success);
-    visit("overtime", self.overtime);
+    visit("overtime", self.timeout);
     visit("collision", self.collision);
     visit("success_rate", self.success_rate);
     visit("wilson_low", self.wilson_low);

@@ -56,7 +56,7 @@ TEST(ResultRow, CondensesTrials) {
   EXPECT_EQ(row.family, "t2");
   EXPECT_EQ(row.trials, 4);
   EXPECT_EQ(row.success, 2);
-  EXPECT_EQ(row.overtime, 1);
+  EXPECT_EQ(row.timeout, 1);
   EXPECT_EQ(row.collision, 1);
   EXPECT_EQ(row.success_rate, 0.5);
   EXPECT_EQ(row.wilson_low, wilson_interval(2, 4).low);

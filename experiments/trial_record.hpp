@@ -42,9 +42,9 @@ inline constexpr std::size_t kLongestText = 1 << 20;  // bytes
 inline constexpr std::int64_t kMostCalls = 1'000'000'000'000;
 inline constexpr std::int64_t kMostContacts = 100'000;
 inline constexpr int kLargestId = 1'000'000'000;
-inline constexpr Range kTime{0.0, 1e6};    // [s]
-inline constexpr Range kLength{0.0, 1e9};  // [m], and ratios and speeds
-inline constexpr Range kPlace{-1e9, 1e9};  // [m]
+inline constexpr Range kTime{0.0, 1e6};       // [s]
+inline constexpr Range kLength{0.0, 1e9};     // [m], and ratios and speeds
+inline constexpr Range kPosition{-1e9, 1e9};  // [m]
 }  // namespace record_limits
 
 /// What was run: all that names a row of a table, and the trial.
@@ -109,8 +109,8 @@ struct ContactRecord {
     visit.robot("robot", self.robot, 0);
     visit.template name<sim::ContactWith>("with", self.with);
     visit.whole("other", self.other, -1, kLargestId);
-    visit.number("x", self.position.x(), kPlace);
-    visit.number("y", self.position.y(), kPlace);
+    visit.number("x", self.position.x(), kPosition);
+    visit.number("y", self.position.y(), kPosition);
     visit.number("robot_speed", self.robot_speed, kLength);
     visit.number("other_speed", self.other_speed, kLength);
   }
@@ -140,7 +140,7 @@ struct CrossingRecord {
   int crossings = 0;
   int crossings_ok = 0;        ///< in time and without a contact that counts
   int contacts_moving = 0;     ///< of all robots; not of those that had stood still for a second
-  double robot_minutes = 0.0;  ///< [min] that robots spent in the place
+  double robot_minutes = 0.0;  ///< [min] that robots spent in the scene
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -197,7 +197,7 @@ struct TrialRecord {
     visit.whole("hits_while_standing", self.hits_while_standing, 0, kMostContacts);
     visit.number("sim_time", self.sim_time, kTime);
     visit.maybe_number("dynamic_distance", self.dynamic_distance, kLength);
-    visit.maybe_number("dynamic_clearance", self.dynamic_clearance, kPlace);
+    visit.maybe_number("dynamic_clearance", self.dynamic_clearance, kPosition);
     visit.list("robots", self.robots, 1, kMostRobots);
     visit.digits("digest", self.digest, 1);
     visit.histogram("plan_time", self.plan_time);

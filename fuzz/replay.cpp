@@ -29,7 +29,7 @@ int main(int count, char** arguments) {
   for (int i = 1; i < count; ++i)
     for (const fs::path& path : files_of(arguments[i])) {
       std::printf("%s\n", path.c_str());
-      std::fflush(stdout);  // the last line names the culprit
+      std::fflush(stdout);  // the last line names the failing input
       std::ifstream file{path, std::ios::binary};
       const std::vector<char> bytes{std::istreambuf_iterator<char>{file}, {}};
       const std::vector<std::uint8_t> input{bytes.begin(), bytes.end()};

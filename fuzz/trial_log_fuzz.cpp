@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     const std::vector<CellTrials> cells = by_cell(log.records);
     for (const ResultRow& row : rows_of(cells)) {
-      fuzz::require(row.success + row.overtime + row.collision == row.trials, "every trial has an outcome");
+      fuzz::require(row.success + row.timeout + row.collision == row.trials, "every trial has an outcome");
       static_cast<void>(to_json_line(row) + to_csv_line(row));
     }
     for (const PairedRow& pair : pairs_of(cells)) static_cast<void>(to_json_line(pair));

@@ -33,13 +33,13 @@ TEST(Attempts, WaitLongerAfterEachFailureUpToALimit) {
 struct Walk {
   ProgressMonitor monitor{RobotParameters{}};
   double now = 10.0;
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
 
   /// Whether it is found to get nowhere.
   bool fails(double seconds, double speed, bool goes) {
     for (const double until = now + seconds; now < until; now += 0.01) {
-      place.x() += 0.01 * speed;
-      monitor.note(now, place, goes);
+      position.x() += 0.01 * speed;
+      monitor.note(now, position, goes);
       if (monitor.stuck(now)) return true;
     }
     return false;
@@ -57,8 +57,8 @@ TEST(ProgressMonitor, FindsARobotThatGoesAndGetsNowhere) {
   bool found = false;
   for (int i = 0; i < 1200 && !found; ++i) {
     circling.now += 0.01;
-    circling.place = 0.1 * Eigen::Vector2d{std::cos(0.02 * i), std::sin(0.02 * i)};
-    circling.monitor.note(circling.now, circling.place, true);
+    circling.position = 0.1 * Eigen::Vector2d{std::cos(0.02 * i), std::sin(0.02 * i)};
+    circling.monitor.note(circling.now, circling.position, true);
     found = circling.monitor.stuck(circling.now);
   }
   EXPECT_TRUE(found);

@@ -17,14 +17,14 @@ namespace {
 
 constexpr double kNoWall = std::numeric_limits<double>::infinity();
 
-/// A room of this body: what a beam from a place in a direction meets [m].
+/// A room of this body: what a beam from a position in a direction meets [m].
 double range_in_room(const Eigen::Vector2d& from, double angle) {
-  const Eigen::Vector2d way{std::cos(angle), std::sin(angle)};
+  const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
   double range = kNoWall;  // walls at x = 2, y = 3, x = -4, y = -5: no two alike
-  if (way.x() > 1e-9) range = std::min(range, (2.0 - from.x()) / way.x());
-  if (way.y() > 1e-9) range = std::min(range, (3.0 - from.y()) / way.y());
-  if (way.x() < -1e-9) range = std::min(range, (-4.0 - from.x()) / way.x());
-  if (way.y() < -1e-9) range = std::min(range, (-5.0 - from.y()) / way.y());
+  if (direction.x() > 1e-9) range = std::min(range, (2.0 - from.x()) / direction.x());
+  if (direction.y() > 1e-9) range = std::min(range, (3.0 - from.y()) / direction.y());
+  if (direction.x() < -1e-9) range = std::min(range, (-4.0 - from.x()) / direction.x());
+  if (direction.y() < -1e-9) range = std::min(range, (-5.0 - from.y()) / direction.y());
   return range;
 }
 
@@ -42,16 +42,16 @@ RangeScan full_turn(int beams) {
   return scan;
 }
 
-/// What a scanner at this place sees, whose axes are turned like this in the body.
-DriverScan of_mounted(const Eigen::Vector3d& place, const Eigen::Quaterniond& turn) {
+/// What a scanner at this position sees, whose axes are turned like this in the body.
+DriverScan of_mounted(const Eigen::Vector3d& position, const Eigen::Quaterniond& turn) {
   DriverScan driver;
   driver.scan = full_turn(720);
   for (std::size_t i = 0; i < driver.scan.ranges.size(); ++i) {
     const double angle = driver.scan.angle_min + driver.scan.angle_increment * static_cast<double>(i);
-    const Eigen::Vector3d way = turn * Eigen::Vector3d{std::cos(angle), std::sin(angle), 0.0};
-    driver.scan.ranges[i] = range_in_room(place.head<2>(), std::atan2(way.y(), way.x()));
+    const Eigen::Vector3d direction = turn * Eigen::Vector3d{std::cos(angle), std::sin(angle), 0.0};
+    driver.scan.ranges[i] = range_in_room(position.head<2>(), std::atan2(direction.y(), direction.x()));
   }
-  driver.mount = planar_mount(place, turn).value();
+  driver.mount = planar_mount(position, turn).value();
   return driver;
 }
 
@@ -80,14 +80,14 @@ Eigen::Quaterniond turned(double roll, double pitch, double yaw) {
 }
 
 TEST(DriverScan, IsSeenRightHoweverItsScannerIsMounted) {
-  for (const Eigen::Vector3d& place :
+  for (const Eigen::Vector3d& position :
        {Eigen::Vector3d{0.0, 0.0, 0.3}, Eigen::Vector3d{0.25, -0.1, 0.3}, Eigen::Vector3d{-0.4, 0.0, 0.1}})
     for (const double yaw : {0.0, 0.5 * kPi, kPi, -2.0})
       for (const double roll : {0.0, kPi, -kPi})
         for (const double pitch : {0.0, kPi}) {
-          const RangeScan seen = made_plain_and_seen(of_mounted(place, turned(roll, pitch, yaw)));
+          const RangeScan seen = made_plain_and_seen(of_mounted(position, turned(roll, pitch, yaw)));
           EXPECT_GT(share_on_walls(seen), 0.98)
-              << place.transpose() << ", " << roll << ", " << pitch << ", " << yaw;
+              << position.transpose() << ", " << roll << ", " << pitch << ", " << yaw;
         }
 }
 

@@ -257,7 +257,7 @@ Trajectory leaving(const Eigen::Vector2d& from, const Eigen::Vector2d& velocity,
   return trajectory;
 }
 
-TEST(Faults, APeerThatClaimsThePlaceOfAPillarDoesNotHideIt) {
+TEST(Faults, APeerThatClaimsThePositionOfAPillarDoesNotHideIt) {
   for (const double leaves : {-1.0, 0.0, 1.0}) {
     for (const double radius : {0.3, 2.0}) {
       SCOPED_TRACE(testing::Message() << "leaves at " << leaves << " m/s, radius " << radius);
@@ -294,11 +294,11 @@ TEST(Faults, AnyNumberOfPeersIsHeldInBoundedRoom) {
   bench.run(1.0);
   ASSERT_NE(bench.planner.agent(), nullptr);
   const std::uint32_t most = static_cast<std::uint32_t>(kMostPeers);
-  const auto flood = [&](int from) {
+  const auto send_many = [&](int from) {
     for (int id = from + 3 * static_cast<int>(most); id > from; --id)
       bench.planner.add_message(told(id, bench.now, standing(-15.0, bench.now)), bench.now);
   };
-  flood(100);
+  send_many(100);
   EXPECT_EQ(bench.planner.counts().messages_accepted, most);
   EXPECT_EQ(bench.planner.counts().messages_crowded, 2 * most);
   bench.run(0.1);

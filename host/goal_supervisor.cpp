@@ -75,9 +75,9 @@ void GoalSupervisor::reconfigure(const AgentParameters& agent, const HostParamet
   heading_tolerance_ = host.goal_heading_tolerance;
 }
 
-void GoalSupervisor::begin(double patience) {
+void GoalSupervisor::begin(double timeout) {
   outcome_ = GoalOutcome::pursued;
-  patience_ = patience;
+  timeout_ = timeout;
   looked_up_ = false;
   wrong_since_.reset();
 }
@@ -116,7 +116,7 @@ GoalOutcome GoalSupervisor::step(const GoalFacts& facts, double now) {
     return outcome_;
   }
   wrong_since_ = std::min(wrong_since_.value_or(now), now);  // a clock may have gone back
-  if (now - *wrong_since_ >= patience_) outcome_ = wrong;
+  if (now - *wrong_since_ >= timeout_) outcome_ = wrong;
   return outcome_;
 }
 

@@ -54,9 +54,9 @@ class GoalSupervisor {
   /// Takes what it needs of them: the robot's radius and the tolerances.
   void reconfigure(const AgentParameters& agent, const HostParameters& host);
 
-  /// A new goal. It is given up when for `patience` [s] without a break there was no path to it: kForEver for
+  /// A new goal. It is given up when for `timeout` [s] without a break there was no path to it: kForEver for
   /// those that nobody waits for.
-  void begin(double patience);
+  void begin(double timeout);
   /// In every step of the planner, after it. What was decided stays.
   GoalOutcome step(const GoalFacts& facts, double now);
   /// The goal was taken away: `preempted` or `cancelled`.
@@ -73,7 +73,7 @@ class GoalSupervisor {
   double tolerance_ = 0.0;          // [m]
   double heading_tolerance_ = 0.0;  // [rad]
   GoalOutcome outcome_ = GoalOutcome::none;
-  double patience_ = kForEver;         // [s]
+  double timeout_ = kForEver;          // [s]
   bool looked_up_ = false;             // on the given map
   std::optional<double> wrong_since_;  // [s]
 };

@@ -13,8 +13,8 @@ inline void PrintTo(GoalOutcome outcome, std::ostream* stream) {
 
 namespace {
 
-constexpr double kPatience = 3.0;  // [s]
-constexpr double kStep = 0.1;      // [s]
+constexpr double kTimeout = 3.0;  // [s]
+constexpr double kStep = 0.1;     // [s]
 
 /// A goal in the open, on a robot that is on its way.
 GoalFacts on_the_way() {
@@ -40,7 +40,7 @@ GoalFacts cut_off() {
 
 class Supervised : public testing::Test {
  protected:
-  void SetUp() override { supervisor.begin(kPatience); }
+  void SetUp() override { supervisor.begin(kTimeout); }
   /// Seconds until something is decided, with these facts; at most `longest`.
   double time_until_decided(const GoalFacts& facts, double longest = 100.0) {
     const double from = now;
@@ -50,10 +50,10 @@ class Supervised : public testing::Test {
     }
     return std::numeric_limits<double>::infinity();
   }
-  void expect_waits_for_its_patience(const GoalFacts& facts) {
+  void expect_waits_for_its_timeout(const GoalFacts& facts) {
     const double waited = time_until_decided(facts);
-    EXPECT_GE(waited, kPatience);  // from the first sight of it
-    EXPECT_LE(waited, kPatience + 2.0 * kStep + 1e-6);
+    EXPECT_GE(waited, kTimeout);  // from the first sight of it
+    EXPECT_LE(waited, kTimeout + 2.0 * kStep + 1e-6);
   }
   double now = 50.0;
   GoalSupervisor supervisor{AgentParameters{}, HostParameters{}};
@@ -100,39 +100,39 @@ TEST_F(Supervised, ThatTheMapDoesNotHoldTheGoalIsSaidAtOnceButNotBeforeThereIsAM
   EXPECT_TRUE(std::isinf(time_until_decided(beyond)));
   beyond.map_known = true;
   EXPECT_EQ(supervisor.step(beyond, now), GoalOutcome::off_map);
-  supervisor.begin(kPatience);
+  supervisor.begin(kTimeout);
   GoalFacts inside = on_the_way();
   inside.clearance = RobotParameters{}.radius - 0.01;
   EXPECT_EQ(supervisor.step(inside, now), GoalOutcome::in_wall);
   EXPECT_TRUE(given_up(supervisor.outcome()));
 }
 
-TEST_F(Supervised, NoPathIsSaidAfterItHasBeenSoForItsPatience) {
-  expect_waits_for_its_patience(cut_off());
+TEST_F(Supervised, NoPathIsSaidAfterItHasBeenSoForItsTimeout) {
+  expect_waits_for_its_timeout(cut_off());
   EXPECT_EQ(supervisor.outcome(), GoalOutcome::no_path);
 }
 
-TEST_F(Supervised, PatienceStartsAnewWhereAWayOpensOrTheRobotIsHeldUp) {
+TEST_F(Supervised, TimeoutStartsAnewWhereAPathOpensOrTheRobotIsHeldUp) {
   for (int i = 0; i < 5; ++i) {
-    EXPECT_TRUE(std::isinf(time_until_decided(cut_off(), kPatience - kStep)));
+    EXPECT_TRUE(std::isinf(time_until_decided(cut_off(), kTimeout - kStep)));
     GoalFacts between = on_the_way();
     if (i % 2 == 1) between.access.reset();  // paused, without a pose, ...
     EXPECT_EQ(supervisor.step(between, now), GoalOutcome::pursued);
   }
 }
 
-TEST_F(Supervised, PatienceSurvivesAClockThatGoesBack) {
+TEST_F(Supervised, TimeoutSurvivesAClockThatGoesBack) {
   EXPECT_TRUE(std::isinf(time_until_decided(cut_off(), 2.0)));
   now -= 40.0;
-  expect_waits_for_its_patience(cut_off());
+  expect_waits_for_its_timeout(cut_off());
 }
 
-TEST_F(Supervised, ARobotDrivesAsNearToABlockedGoalAsItCanBeforeItsPatienceRuns) {
+TEST_F(Supervised, ARobotDrivesAsNearToABlockedGoalAsItCanBeforeItsTimeoutRuns) {
   GoalFacts facts = on_the_way();
   facts.access = GoalAccess::blocked;
   EXPECT_TRUE(std::isinf(time_until_decided(facts)));
   facts.stands_short = true;
-  expect_waits_for_its_patience(facts);
+  expect_waits_for_its_timeout(facts);
   EXPECT_EQ(supervisor.outcome(), GoalOutcome::in_wall);
 }
 
@@ -145,10 +145,10 @@ TEST_F(Supervised, AGoalThatNobodyWaitsForIsNotGivenUpForWantOfAWay) {
 TEST_F(Supervised, AGoalThatIsTakenAwaySaysSoUnlessItWasDecidedBefore) {
   supervisor.end(GoalOutcome::preempted);
   EXPECT_EQ(supervisor.step(at_the_goal(), now), GoalOutcome::preempted);
-  supervisor.begin(kPatience);
+  supervisor.begin(kTimeout);
   supervisor.end(GoalOutcome::cancelled);
   EXPECT_EQ(supervisor.outcome(), GoalOutcome::cancelled);
-  supervisor.begin(kPatience);
+  supervisor.begin(kTimeout);
   EXPECT_EQ(supervisor.step(at_the_goal(), now), GoalOutcome::reached);
   supervisor.end(GoalOutcome::cancelled);
   EXPECT_EQ(supervisor.outcome(), GoalOutcome::reached);
@@ -160,9 +160,9 @@ class GoalsOnTheBench : public testing::TestWithParam<Arrangement> {
  protected:
   GoalsOnTheBench() : bench{GetParam()} {}
 
-  void send(const Goal& goal, double patience = kPatience) {
+  void send(const Goal& goal, double timeout = kTimeout) {
     ASSERT_TRUE(bench.planner.set_goal(goal));
-    supervisor.begin(patience);
+    supervisor.begin(timeout);
   }
   /// Runs until something is decided.
   GoalOutcome outcome_within(double seconds) {
@@ -175,8 +175,8 @@ class GoalsOnTheBench : public testing::TestWithParam<Arrangement> {
     }
     return supervisor.outcome();
   }
-  [[nodiscard]] double distance_to(const Eigen::Vector2d& place) const {
-    return (bench.pose.position_world - place).norm();
+  [[nodiscard]] double distance_to(const Eigen::Vector2d& position) const {
+    return (bench.pose.position_world - position).norm();
   }
   /// Open ground, but for a closed room around (6, 0), of walls 0.5 m thick.
   [[nodiscard]] static OccupancyMap map_with_closed_room() {
@@ -197,10 +197,10 @@ INSTANTIATE_TEST_SUITE_P(Both, GoalsOnTheBench, testing::Values(Arrangement::one
 
 TEST_P(GoalsOnTheBench, IsReachedWithItsHeading) {
   for (const double heading : {2.5, -1.0}) {
-    const Eigen::Vector2d place{heading, 1.0};
-    send({place, heading});
+    const Eigen::Vector2d position{heading, 1.0};
+    send({position, heading});
     EXPECT_EQ(outcome_within(15.0), GoalOutcome::reached);
-    EXPECT_LT(distance_to(place), 0.05);
+    EXPECT_LT(distance_to(position), 0.05);
     EXPECT_NEAR(bench.pose.heading, heading, 0.1);
     EXPECT_LT(bench.speed(), 0.02);
   }
@@ -225,15 +225,15 @@ TEST_P(GoalsOnTheBench, IsGivenUpAtOnceWhereTheMapForbidsIt) {
   EXPECT_EQ(outcome_within(0.1), GoalOutcome::off_map);
 }
 
-TEST_P(GoalsOnTheBench, IsGivenUpWhenNoPathHasLedThereForItsPatience) {
+TEST_P(GoalsOnTheBench, IsGivenUpWhenNoPathHasLedThereForItsTimeout) {
   bench.run(1.0);  // the robot has started
   bench.planner.set_map(map_with_closed_room());
   bench.run(3.0);  // and has again
   send({{6.0, 0.0}, std::nullopt});
   const double sent = bench.time;
   EXPECT_EQ(outcome_within(20.0), GoalOutcome::no_path);
-  EXPECT_GE(bench.time - sent, kPatience);
-  EXPECT_LE(bench.time - sent, kPatience + 0.2);
+  EXPECT_GE(bench.time - sent, kTimeout);
+  EXPECT_LE(bench.time - sent, kTimeout + 0.2);
   bench.planner.cancel();
   bench.run(2.0);
   EXPECT_LT(bench.speed(), 0.005);

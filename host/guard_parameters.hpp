@@ -6,7 +6,7 @@
 namespace spf::host {
 
 struct GuardParameters {
-  bool enabled = true;            ///< the scan guards the robot's way
+  bool enabled = true;            ///< the scan guards the robot's path
   double margin = 0.02;           ///< [m] left between the robot and what it stops before
   double own_radius = 0.2;        ///< [m] what is nearer to the centre is part of the robot
   double fastest_approach = 2.0;  ///< [m/s] at which something may come towards it; 0: all stands still

@@ -12,13 +12,11 @@
 #include "spf/math/angles.hpp"
 #include "spf/math/plane.hpp"
 #include "spf/math/random_stream.hpp"
+#include "spf/math/segment.hpp"
 #include "spf/robot/omni_kinematics.hpp"
 
 namespace spf::host {
 
-struct GuardWall {
-  Eigen::Vector2d from, to;
-};
 struct GuardDisc {
   Eigen::Vector2d center;
   double radius;
@@ -62,12 +60,8 @@ class GuardWorld {
     double nearest = std::numeric_limits<double>::infinity();
     for (const GuardDisc& disc : discs)
       nearest = std::min(nearest, (disc.center - pose.position_world).norm() - disc.radius);
-    for (const GuardWall& wall : walls) {
-      const Eigen::Vector2d along = wall.to - wall.from;
-      const double share =
-          std::clamp((pose.position_world - wall.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      nearest = std::min(nearest, (wall.from + share * along - pose.position_world).norm());
-    }
+    for (const LineSegment& wall : walls)
+      nearest = std::min(nearest, distance_to_segment(pose.position_world, wall));
     return nearest;
   }
   [[nodiscard]] RangeScan sweep() {
@@ -87,7 +81,7 @@ class GuardWorld {
   AgentParameters agent;
   ScanGuard guard;
   std::function<Eigen::Vector3d(double)> command;  // of a time: a twist in the body
-  std::vector<GuardWall> walls;
+  std::vector<LineSegment> walls;
   std::vector<GuardDisc> discs;
   std::function<void(RangeScan&)> spoil;
   std::function<void()> each_tick;
@@ -101,21 +95,21 @@ class GuardWorld {
   RandomStream noise{7};
 
  private:
-  [[nodiscard]] double range_along(const Eigen::Vector2d& way) const {
+  [[nodiscard]] double range_along(const Eigen::Vector2d& direction) const {
     double range = std::numeric_limits<double>::infinity();
     for (const GuardDisc& disc : discs) {
       const Eigen::Vector2d to = disc.center - pose.position_world;
-      const double along = to.dot(way);
+      const double along = to.dot(direction);
       const double room = disc.radius * disc.radius - (to.squaredNorm() - along * along);
       if (along > 0.0 && room >= 0.0) range = std::min(range, along - std::sqrt(room));
     }
-    for (const GuardWall& wall : walls) {
+    for (const LineSegment& wall : walls) {
       const Eigen::Vector2d along = wall.to - wall.from;
       const Eigen::Vector2d to = wall.from - pose.position_world;
-      const double parallel = cross(way, along);
+      const double parallel = cross(direction, along);
       if (std::abs(parallel) < 1e-12) continue;
       const double reach = cross(to, along) / parallel;
-      const double share = cross(to, way) / parallel;
+      const double share = cross(to, direction) / parallel;
       if (reach > 0.0 && share >= 0.0 && share <= 1.0) range = std::min(range, reach);
     }
     return range;

@@ -132,7 +132,7 @@ TEST_F(LocaliserTest, BeginsAnewWhereAJumpPersistsAndStillKnowsItsCommand) {
   EXPECT_EQ(localiser.state().command, forward(0.3));
 }
 
-TEST_F(LocaliserTest, KeepsItsPlaceAndCommandWhenTheClockGoesBack) {
+TEST_F(LocaliserTest, KeepsItsPoseAndCommandWhenTheClockGoesBack) {
   drive(1.0, 0.8, 0.8);
   const double back = now - 50.0;
   localiser.meet_clock_jump(back);
@@ -143,7 +143,7 @@ TEST_F(LocaliserTest, KeepsItsPlaceAndCommandWhenTheClockGoesBack) {
 }
 
 // The process was suspended, say: the base was told nothing meanwhile, and has stopped.
-TEST_F(LocaliserTest, KeepsItsPlaceButNoCommandWhenTheClockLeapsAhead) {
+TEST_F(LocaliserTest, KeepsItsPoseButNoCommandWhenTheClockLeapsAhead) {
   drive(1.0, 0.8, 0.8);
   localiser.meet_clock_jump(500.0);
   EXPECT_NEAR(x(500.0), 0.8, 0.01);

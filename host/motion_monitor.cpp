@@ -101,8 +101,8 @@ void MotionMonitor::learn_noise() {
   mean.position /= mean.poses;
   mean.told /= mean.poses;
   if (last_mean_.poses > 0) {
-    const Displacement surprise = (mean.position - last_mean_.position) - (mean.told - last_mean_.told);
-    for (std::size_t i = 0; i < noise_.size(); ++i) noise_[i].note(surprise[static_cast<Eigen::Index>(i)]);
+    const Displacement innovation = (mean.position - last_mean_.position) - (mean.told - last_mean_.told);
+    for (std::size_t i = 0; i < noise_.size(); ++i) noise_[i].note(innovation[static_cast<Eigen::Index>(i)]);
   }
   last_mean_ = mean;
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kAllowed = 0.05;  // [s] HostParameters::peer_clock_error
 
-/// Of a peer on a straight way.
+/// Of a peer on a straight path.
 TrajectoryMessage on_its_way(int robot_id, double sent_time, const Eigen::Vector2d& from,
                              const Eigen::Vector2d& velocity) {
   TrajectoryMessage message;
@@ -136,11 +136,12 @@ double clearance_of_crossing(Bench& bench, double speed, int robot_id, double cl
   bench.run(1.0);
   EXPECT_TRUE(bench.planner.set_goal({{12.0, 0.0}, std::nullopt}));
   const double begun = bench.now;
-  const auto place = [&](double time) {  // heard of for long before they meet at x = 6
+  const auto course = [&](double time) {  // heard of for long before they meet at x = 6
     return Eigen::Vector2d{6.0, -6.5 * speed + speed * (time - begun)};
   };
   bench.each_tenth = [&] {
-    TrajectoryMessage message = on_its_way(robot_id, bench.now + clock_ahead, place(bench.now), {0.0, speed});
+    TrajectoryMessage message =
+        on_its_way(robot_id, bench.now + clock_ahead, course(bench.now), {0.0, speed});
     message.priority = 5;  // would have to give way
     if (bench.split)
       bench.planning.add_message(message, bench.now);
@@ -150,7 +151,7 @@ double clearance_of_crossing(Bench& bench, double speed, int robot_id, double cl
   double least = 1e9;
   while (bench.now < begun + 16.0) {
     bench.tick();
-    least = std::min(least, (place(bench.now) - bench.pose.position_world).norm() - 0.6);
+    least = std::min(least, (course(bench.now) - bench.pose.position_world).norm() - 0.6);
   }
   return least;
 }

@@ -111,7 +111,7 @@ TEST_F(PlanOnArrival, AScannerOfAnyRateIsPlannedWithScanByScanAndNoMoreOften) {
   }
 }
 
-TEST_F(PlanOnArrival, AFloodOfObservationsBringsNoMorePlansThanTheLeastIntervalAllows) {
+TEST_F(PlanOnArrival, ABurstOfObservationsBringsNoMorePlansThanTheLeastIntervalAllows) {
   const std::size_t before = plans.size();
   const double begin = now;
   while (now < begin + 5.0) {
@@ -154,7 +154,7 @@ TEST_F(PlanOnArrival, ManyPeersBringNoPlanEach) {
 TEST_F(PlanOnArrival, ObservationsThatEndLeaveNoGapLongerThanStated) {
   robot.add_observation(no_obstacles(now), now);
   time_to_plan();
-  EXPECT_NEAR(time_to_plan(), kUsualPeriod + PlanSchedule::kPatience, 2.0 * kMillisecond);
+  EXPECT_NEAR(time_to_plan(), kUsualPeriod + PlanSchedule::kLongestDelay, 2.0 * kMillisecond);
   EXPECT_NEAR(time_to_plan(), kUsualPeriod, 2.0 * kMillisecond);
 }
 

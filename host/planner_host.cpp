@@ -14,7 +14,7 @@ namespace spf::host {
 namespace {
 
 /// Of a robot that is moved exactly as it plans.
-Pose2 place_on(const Trajectory& plan, double time) {
+Pose2 pose_on(const Trajectory& plan, double time) {
   return {plan.position(time), plan.heading().state(time).heading};
 }
 
@@ -94,7 +94,7 @@ ObservationVerdict PlannerHost::add_observation(const SensedWorld& sensed, doubl
   if (sensed.has_detections) last_detections_time_ = std::max(last_detections_time_, observation.time);
   if (!agent_) return verdict;
   const std::optional<Pose2> from = localiser != nullptr ? localiser->pose(observation.time)
-                                                         : place_on(agent_->committed(), observation.time);
+                                                         : pose_on(agent_->committed(), observation.time);
   if (observation.scan && from && !host_.trusts_peers) doubt_peers(observation, *from);
   agent_->observe(observation, from, now);
   const bool tells = sensed.has_detections || (observation.scan && from);
@@ -213,7 +213,7 @@ void PlannerHost::start(const OccupancyMap& map, const Pose2& pose_world, double
 
 void PlannerHost::restart_where_planned(double then, double now) {
   if (!agent_) return meet_clock_jump();
-  const Pose2 here = place_on(agent_->committed(), then);
+  const Pose2 here = pose_on(agent_->committed(), then);
   meet_clock_jump();
   vouched_time_ = now;
   make_agent(here, now);
@@ -298,7 +298,7 @@ StateEstimate PlannerHost::estimate(double now, const Localiser* localiser) cons
   if (localiser != nullptr) return localiser->estimate(now);
   StateEstimate exact;
   exact.valid = true;
-  exact.pose_world = place_on(agent_->committed(), now);
+  exact.pose_world = pose_on(agent_->committed(), now);
   return exact;
 }
 

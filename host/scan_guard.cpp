@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCreep = 0.01;         // [1] of max_speed: slower is no motion
-constexpr double kSamePlace = 1.0 / 3;  // [1] of the radius: returns of the same thing are no farther apart
+constexpr double kSameThing = 1.0 / 3;  // [1] of the radius: returns of the same thing are no farther apart
 constexpr double kNoise = 1.0 / 6;      // [1] of the radius: smaller differences of ranges may be noise
 constexpr int kNeighbours = 3;          // to either side that smooth a range
 constexpr double kApart = 0.08;         // [s] between two scans that are compared
@@ -168,7 +168,7 @@ void ScanGuard::collect(const RangeScan& scan, const Pose2& sensor_in_body, cons
     const double agreed = readings.agreed(beam);
     if (agreed <= farthest) keep(beam, readings.smoothed(beam, agreed, kNoise * robot_.radius), into.seen);
     const double reading = readings.at(beam);
-    if (reading < agreed - kSamePlace * robot_.radius && into.alone.size() < kMostAlone)
+    if (reading < agreed - kSameThing * robot_.radius && into.alone.size() < kMostAlone)
       keep(beam, reading, into.alone);
   }
 }
@@ -176,7 +176,7 @@ void ScanGuard::collect(const RangeScan& scan, const Pose2& sensor_in_body, cons
 /// A thing so thin that one beam meets it is there when it was there before.
 void ScanGuard::confirm(Sweep& sweep, const Sweep& before) const {
   if (!(sweep.time - before.time <= stale_time_)) return;
-  const double near = kSamePlace * robot_.radius;
+  const double near = kSameThing * robot_.radius;
   for (const Eigen::Vector2d& point : sweep.alone) {
     const auto is_near = [&](const Eigen::Vector2d& other) {
       return (other - point).squaredNorm() <= near * near;

@@ -196,8 +196,8 @@ TEST(ScanGuard, FollowsACurveAroundAPillar) {
       const Eigen::Vector2d velocity = twist_in_world(world.twist_body, world.pose.heading).head<2>();
       const Eigen::Vector2d soon = world.pose.position_world + 0.09 * velocity;
       const Eigen::Vector2d outwards = soon.normalized();
-      const Eigen::Vector2d way = left_of(outwards) + (1.0 - soon.norm()) * outwards;
-      return twist_in_body({0.9 * way.x(), 0.9 * way.y(), yaw_rate}, world.pose.heading);
+      const Eigen::Vector2d course = left_of(outwards) + (1.0 - soon.norm()) * outwards;
+      return twist_in_body({0.9 * course.x(), 0.9 * course.y(), yaw_rate}, world.pose.heading);
     };
     world.run(1.0);  // to get going
     world.held = 0;
@@ -289,11 +289,11 @@ TEST(ScanGuard, TakesAScannerThatHangsUpsideDown) {
             .value();
     make_plain(driver, NoReturn::infinite);
     ASSERT_TRUE(world.guard.add_scan(10.0, driver.scan, driver.mount.in_body, 10.0));
-    const double way = world.guard.judge(10.0, {0.0, side, 0.0}).free_distance;
+    const double distance = world.guard.judge(10.0, {0.0, side, 0.0}).free_distance;
     if (side > 0.0)
-      EXPECT_NEAR(way, 1.7, 0.01);
+      EXPECT_NEAR(distance, 1.7, 0.01);
     else
-      EXPECT_EQ(way, kNothing);
+      EXPECT_EQ(distance, kNothing);
   }
 }
 

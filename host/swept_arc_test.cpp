@@ -13,19 +13,19 @@ namespace {
 
 constexpr double kNeverTouches = std::numeric_limits<double>::infinity();
 
-/// The centre after a way along the arc, step by step.
-Eigen::Vector2d centre_after(double way, double heading, double curvature) {
-  if (curvature == 0.0) return way * Eigen::Vector2d{std::cos(heading), std::sin(heading)};
-  const double turned = heading + curvature * way;
+/// The centre after a distance along the arc, step by step.
+Eigen::Vector2d centre_after(double distance, double heading, double curvature) {
+  if (curvature == 0.0) return distance * Eigen::Vector2d{std::cos(heading), std::sin(heading)};
+  const double turned = heading + curvature * distance;
   return Eigen::Vector2d{std::sin(turned) - std::sin(heading), std::cos(heading) - std::cos(turned)} /
          curvature;
 }
 
-double searched_way(const Eigen::Vector2d& point, double heading, double curvature, double radius) {
+double searched_distance(const Eigen::Vector2d& point, double heading, double curvature, double radius) {
   constexpr double kStep = 1e-3;
   const double turn = curvature == 0.0 ? 20.0 : 2.0 * kPi / std::abs(curvature);
-  for (double way = 0.0; way < std::min(turn, 20.0); way += kStep)
-    if ((point - centre_after(way, heading, curvature)).norm() <= radius) return way;
+  for (double distance = 0.0; distance < std::min(turn, 20.0); distance += kStep)
+    if ((point - centre_after(distance, heading, curvature)).norm() <= radius) return distance;
   return kNeverTouches;
 }
 
@@ -38,16 +38,16 @@ TEST(SweptArc, FindsTheFirstTouchThatASearchFinds) {
     const Eigen::Vector2d point{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5)};
     if (point.norm() <= 0.31) continue;
     const SweptArc arc{{std::cos(heading), std::sin(heading)}, curvature, 0.3};
-    const double expected = searched_way(point, heading, curvature, 0.3);
-    const double way = arc.distance_to(point);
+    const double expected = searched_distance(point, heading, curvature, 0.3);
+    const double distance = arc.distance_to(point);
     // A search in steps misses what it only grazes.
-    if (std::isinf(expected) && !std::isinf(way)) {
-      EXPECT_NEAR((point - centre_after(way, heading, curvature)).norm(), 0.3, 1e-4);
+    if (std::isinf(expected) && !std::isinf(distance)) {
+      EXPECT_NEAR((point - centre_after(distance, heading, curvature)).norm(), 0.3, 1e-4);
       continue;
     }
     if (std::isinf(expected)) continue;
     ++touched;
-    EXPECT_NEAR(way, expected, 2e-3) << point.transpose() << ", " << heading << ", " << curvature;
+    EXPECT_NEAR(distance, expected, 2e-3) << point.transpose() << ", " << heading << ", " << curvature;
   }
   EXPECT_GT(touched, 40);
 }

@@ -161,7 +161,7 @@ void TrackerHost::send(double now, const Eigen::Vector3d& wanted, const MotionSt
   command_.twist_body = kinematics_.twist_body(command_.wheel_speeds);
 }
 
-/// By its wheels alone: what is missing of the way is not to be made up for, nor what the observer takes for
+/// By its wheels alone: what is missing of the path is not to be made up for, nor what the observer takes for
 /// a push against it.
 void TrackerHost::stop_pushing(double now, const MotionState& state) {
   braking_.reset();

@@ -50,20 +50,20 @@ TEST(LineChart, PutsHigherValuesHigher) {
   EXPECT_LT(std::stod(match[1]), std::stod(match[2]));  // 90 % above 50 %: y points down
 }
 
-/// Places [px] that the chart's n-th path visits, without its marks.
+/// Points [px] that the chart's n-th path visits, without its marks.
 std::vector<ChartPoint> visited(const std::string& svg, int which) {
   std::size_t at = svg.find(" d=\"");
   for (; which > 0; --which) at = svg.find(" d=\"", at + 1);
   const std::string data = svg.substr(at + 4, svg.find('"', at + 4) - at - 4);
-  std::vector<ChartPoint> places;
+  std::vector<ChartPoint> points;
   double x = 0.0, y = 0.0;
   const std::regex pair{"(-?[0-9]+)[ ]?(-[0-9]+|[0-9]+)"};
   for (std::sregex_iterator i{data.begin(), data.end(), pair}, end; i != end; ++i) {
     x += 0.5 * std::stod((*i)[1]);
     y += 0.5 * std::stod((*i)[2]);
-    places.push_back({x, y});
+    points.push_back({x, y});
   }
-  return places;
+  return points;
 }
 
 LineChart in_page(std::vector<ChartPoint> points) {
@@ -90,10 +90,10 @@ TEST(LineChart, SpansItsAreaInAPageThatHasHeadingAndLegend) {
   ASSERT_TRUE(std::regex_search(
       svg, area,
       std::regex{"x=\"([0-9.]+)\" y=\"[0-9.]+\" width=\"([0-9.]+)\" height=\"[0-9.]+\" class=\"area\""}));
-  const std::vector<ChartPoint> places = visited(svg, 0);
-  ASSERT_EQ(places.size(), 3U);
-  EXPECT_DOUBLE_EQ(places.front().x, std::stod(area[1]));
-  EXPECT_DOUBLE_EQ(places.back().x, std::stod(area[1]) + std::stod(area[2]));
+  const std::vector<ChartPoint> drawn = visited(svg, 0);
+  ASSERT_EQ(drawn.size(), 3U);
+  EXPECT_DOUBLE_EQ(drawn.front().x, std::stod(area[1]));
+  EXPECT_DOUBLE_EQ(drawn.back().x, std::stod(area[1]) + std::stod(area[2]));
 }
 
 TEST(LineChart, ThinsALongLineToItsPixelsAndKeepsThePeak) {
@@ -101,12 +101,12 @@ TEST(LineChart, ThinsALongLineToItsPixelsAndKeepsThePeak) {
   for (int i = 0; i <= 100000; ++i) points.push_back({1e-4 * i, i % 2 == 0 ? 0.1 : -0.1});
   points[54321].y = 0.9;
   const std::string svg = line_chart(in_page(points));
-  const std::vector<ChartPoint> places = visited(svg, 0);
-  EXPECT_LE(places.size(), 4U * 311U);
+  const std::vector<ChartPoint> drawn = visited(svg, 0);
+  EXPECT_LE(drawn.size(), 4U * 311U);
   double top = 1e9, bottom = -1e9;
-  for (const ChartPoint& place : places) {
-    top = std::min(top, place.y);
-    bottom = std::max(bottom, place.y);
+  for (const ChartPoint& point : drawn) {
+    top = std::min(top, point.y);
+    bottom = std::max(bottom, point.y);
   }
   EXPECT_GT(bottom - top, 4.5 * (visited(line_chart(in_page({{0.0, -0.1}, {5.0, 0.1}})), 0)[0].y -
                                  visited(line_chart(in_page({{0.0, -0.1}, {5.0, 0.1}})), 0)[1].y));

@@ -59,7 +59,7 @@ TEST(Polyline, KeepsTheExtremesOfEveryColumn) {
   EXPECT_TRUE(column_extremes({}, 1.0).empty());
 }
 
-TEST(Polyline, WritesPathsAsWholeStepsFromPlaceToPlace) {
+TEST(Polyline, WritesPathsAsWholeStepsFromPointToPoint) {
   EXPECT_EQ(path_data({{{10.4, 20.0}, {12.0, 17.0}, {12.0, 18.6}}, {}, {{5.0, 1.0}}}, ""),
             "m10 20l2-3 0 2m-7-18");
   EXPECT_EQ(path_data({{{10.0, 20.0}, {8.0, 21.0}}}, "h0"), "m10 20h0m-2 1h0");

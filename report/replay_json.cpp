@@ -52,9 +52,9 @@ json column(const Items& items, double step, Number&& number) {
 class SharedTexts {
  public:
   int index(const std::string& text) {
-    const auto [place, is_new] = known_.emplace(text, static_cast<int>(texts_.size()));
+    const auto [found, is_new] = known_.emplace(text, static_cast<int>(texts_.size()));
     if (is_new) texts_.push_back(text);
-    return place->second;
+    return found->second;
   }
   [[nodiscard]] const json& texts() const { return texts_; }
 

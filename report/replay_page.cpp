@@ -14,11 +14,11 @@ namespace {
 /// Appends the template up to the mark and then the text, and moves the template behind the mark. The
 /// inserted text is never searched, so no run can smuggle a mark in.
 void append_at_mark(std::string& page, std::string_view& rest, std::string_view mark, std::string_view text) {
-  const std::size_t place = rest.find(mark);
-  if (place == std::string_view::npos)
+  const std::size_t found = rest.find(mark);
+  if (found == std::string_view::npos)
     throw std::logic_error("replay page lacks the mark " + std::string{mark});
-  page.append(rest.substr(0, place)).append(text);
-  rest.remove_prefix(place + mark.size());
+  page.append(rest.substr(0, found)).append(text);
+  rest.remove_prefix(found + mark.size());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@ Arrows: an #include from the repository's root must be covered by the DEPENDS of
 other rooms (in tests by TEST_DEPENDS too); rooms form no circle; a core room uses core rooms and Eigen alone.
 Purity: the sources of spf/ hold no file, stream, clock, thread, outside randomness, changeable static or global, and
 no ROS. spf/testing is free of this, and so are tests: what is named *_test or lies in a folder called test.
+Apart: the simulated world includes, by whatever detour, nothing of agents and planners, so that any host can use it.
 Threads: outside tests, room `parallel` alone starts and guards them.
 Page: the diagram of docs/architecture.md has the arrows of the DEPENDS and no others, its table every room.
 Prints FILE:LINE: sentence for each breach; exit status 1 if there is one.
@@ -41,6 +42,9 @@ FORBIDDEN_WORDS = [
     (re.compile(r"(?<![\w.>])getenv\s*\("), "reads the environment"),
     (re.compile(r"\bthread_local\b"), "keeps hidden state"),
 ]
+# What a file may not include, however indirectly.
+APART = {"sim/world.cpp": ("spf/planning/", "spf/team/robot_agent.hpp", "spf/tracking/", "host/planner_host.hpp",
+                          "host/tracker_host.hpp", "host/robot_host.hpp")}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]', re.MULTILINE)
 ROOM_CALL = re.compile(r"\bspf_room\s*\(([^)]*)\)")
 ROOM_KEYWORDS = {"STANDARD", "HEADERS", "DEPENDS", "TEST_DEPENDS"}
@@ -117,7 +121,7 @@ def reachable(rooms, name, with_tests):
 
 @functools.lru_cache(maxsize=None)
 def without_comments_and_strings(text):
-    """The same text with both blanked out, so that places stay where they were; include lines keep their names."""
+    """The same text with both blanked out, so that positions stay where they were; include lines keep their names."""
     token = re.compile(
         r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^()\\\s]{0,16})\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'',
         re.DOTALL)
@@ -216,6 +220,25 @@ def check_includes(rooms, room, file, code):
             yield f"{where}: includes <{header}>; threads belong to room {THREADS_ROOM} alone"
 
 
+def check_apart(root):
+    """Files of APART, followed through the project's own headers."""
+    for file, others in APART.items():
+        waiting, seen = [(file, [])], {file}
+        while waiting:
+            current, chain = waiting.pop(0)
+            if not (root / current).is_file():
+                continue
+            code = without_comments_and_strings((root / current).read_text(encoding="utf-8"))
+            for header in (include.group(2) for include in INCLUDE.finditer(code)):
+                if header in seen:
+                    continue
+                seen.add(header)
+                if header.startswith(others):
+                    yield f"{file}:1: includes {header} by {' -> '.join(chain + [current])}; it stands apart from agents"
+                else:
+                    waiting.append((header, chain + [current]))
+
+
 def check_foreign_header(where, header):
     if header in FORBIDDEN_HEADERS:
         yield f"{where}: includes <{header}> in the core: {FORBIDDEN_HEADERS[header]}"
@@ -241,7 +264,7 @@ def check(root):
     rooms = read_rooms(root, files)
     if not rooms:
         return ["CMakeLists.txt:1: found no rooms"]
-    breaches = list(check_rooms(rooms)) + list(check_page(root, rooms))
+    breaches = list(check_rooms(rooms)) + list(check_page(root, rooms)) + list(check_apart(root))
     for file in files:
         room = owner_of(rooms, file)
         if room is None or file.suffix not in SOURCE_SUFFIXES:

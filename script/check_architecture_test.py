@@ -45,6 +45,18 @@ class Copy(unittest.TestCase):
         self.assertEqual(self.breaches_of(file, text), [])
 
 
+class Apart(Copy):
+    def test_the_world_knows_no_agent_by_a_detour(self):
+        self.breaches_of("sim/clock.hpp", '#pragma once\n#include "spf/team/robot_agent.hpp"\n')
+        found = [line for line in self.breaches_of("sim/world.cpp", '#include "sim/clock.hpp"\n') if "apart" in line]
+        self.assertEqual(len(found), 1, found)
+        self.assertTrue(found[0].startswith("sim/world.cpp:1: includes spf/team/robot_agent.hpp by sim/world.cpp -> "), found)
+
+    def test_the_world_may_know_why_a_robot_stops(self):
+        self.assertEqual([line for line in self.breaches_of("sim/world.cpp", '#include "spf/team/stop_cause.hpp"\n')
+                          if "apart" in line], [])
+
+
 class Page(unittest.TestCase):
     """The page of a house with two rooms."""
 

@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-ENDINGS = {".hpp", ".cpp", ".h", ".py", ".md", ".yaml", ".cmake", ".txt", ".js", ".mjs", ".sh"}
+ENDINGS = {".hpp", ".cpp", ".h", ".py", ".md", ".yaml", ".cmake", ".txt", ".js", ".mjs", ".sh", ".msg", ".srv", ".launch"}
 PATH = re.compile(r"(?<![\w./-])((?:docs|scenarios)/[\w./-]+\.(?:md|yaml|csv|png)|script/[a-z_-]+(?:\.py|\.sh)?)(?![\w/])")
 LINK = re.compile(r"\]\(([^()\s]+)\)")
 NUMBERED = re.compile(r"\bprotocol,? sections? \d|\(design: ")

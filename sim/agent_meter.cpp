@@ -8,8 +8,6 @@ void AgentMeter::planned(int robot, const PlanResult& plan) {
   if (!succeeded(plan.outcome)) ++result.failed_plans;
   result.optimiser_calls += plan.stats.optimiser_calls;
   result.inner_iterations += plan.stats.inner_iterations;
-  result.evaluations += plan.stats.evaluations;
-  result.primitives += plan.stats.primitives;
 }
 
 void AgentMeter::stood(int robot, const AgentStatus& status, double duration) {
@@ -25,8 +23,6 @@ void AgentMeter::finish(TrialResult& result) const {
     to.failed_plans = from.failed_plans;
     to.optimiser_calls = from.optimiser_calls;
     to.inner_iterations = from.inner_iterations;
-    to.evaluations = from.evaluations;
-    to.primitives = from.primitives;
     to.stood = from.stood;
   }
 }

@@ -5,6 +5,7 @@
 
 #include "sim/trial_result.hpp"
 #include "spf/planning/planner.hpp"
+#include "spf/team/agent_status.hpp"
 
 namespace spf::sim {
 

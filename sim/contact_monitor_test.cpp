@@ -29,7 +29,7 @@ class Stage {
   void put_disc(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     dynamic_obstacles_ = {{0, false, false, 0.4, {from, to}, (to - from) / DynamicObstacles::kStep}};
   }
-  void clear_movers() { dynamic_obstacles_.clear(); }
+  void clear_obstacles() { dynamic_obstacles_.clear(); }
   RobotTruth& robot(std::size_t index) { return robots_[index]; }
   ContactMonitor& run(double seconds = kDt, double share_from = 0.0) {
     const int ticks = static_cast<int>(std::lround(seconds / kDt));

@@ -27,7 +27,7 @@ std::vector<CrowdSample> sorted(std::vector<CrowdSample> samples) {
 }
 
 /// An area of 12 m x 10 m in which two people stand in corners for 100 s.
-std::vector<CrowdSample> quiet_place() {
+std::vector<CrowdSample> quiet_scene() {
   std::vector<CrowdSample> samples;
   add_walk(samples, 1, {0.0, 0.0}, Eigen::Vector2d::Zero(), 0.0, 100.0);
   add_walk(samples, 2, {12.0, 10.0}, Eigen::Vector2d::Zero(), 0.0, 100.0);
@@ -74,7 +74,7 @@ TEST(CrowdRecording, CountsWholeWindows) {
 }
 
 TEST(PedestrianFamily, RobotsEnterInTheMiddleOfTheSides) {
-  const Scenario scenario = make_scenario(setup_with(quiet_place()), kDefaultSeed, 0);
+  const Scenario scenario = make_scenario(setup_with(quiet_scene()), kDefaultSeed, 0);
   ASSERT_EQ(scenario.robots.size(), 4U);
   const std::vector<Eigen::Vector2d> starts{{0, 5}, {12, 5}, {6, 0}, {6, 10}};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -86,7 +86,7 @@ TEST(PedestrianFamily, RobotsEnterInTheMiddleOfTheSides) {
 }
 
 TEST(PedestrianFamily, PutsTheStartOffUntilNobodyIsNear) {
-  std::vector<CrowdSample> samples = quiet_place();
+  std::vector<CrowdSample> samples = quiet_scene();
   // Past the left start at x = 0, y = 5 from 2 m below it: within 1 m from 1 s to 3 s, both ends included.
   add_walk(samples, 3, {0.0, 3.0}, {0.0, 1.0}, 0.0, 4.0);
   FamilySetup setup = setup_with(samples);
@@ -104,7 +104,7 @@ TEST(PedestrianFamily, PutsTheStartOffUntilNobodyIsNear) {
 }
 
 TEST(PedestrianFamily, SaysWhatARecordingCannotGive) {
-  FamilySetup setup = setup_with(quiet_place());
+  FamilySetup setup = setup_with(quiet_scene());
   const auto message = [&](int trial) {
     try {
       static_cast<void>(make_scenario(setup, kDefaultSeed, trial));
@@ -115,7 +115,7 @@ TEST(PedestrianFamily, SaysWhatARecordingCannotGive) {
   };
   EXPECT_EQ(message(8), "nothing");
   EXPECT_NE(message(9).find("has 9 windows of 60 s: trials 0 to 8"), std::string::npos) << message(9);
-  std::vector<CrowdSample> samples = quiet_place();
+  std::vector<CrowdSample> samples = quiet_scene();
   add_walk(samples, 3, {6.0, 0.5}, Eigen::Vector2d::Zero(), 0.0, 100.0);
   setup = setup_with(samples);
   EXPECT_NE(message(0).find("within 1 m of a robot's start"), std::string::npos) << message(0);
@@ -124,7 +124,7 @@ TEST(PedestrianFamily, SaysWhatARecordingCannotGive) {
 }
 
 TEST(PedestrianFamily, ARobotAloneCrossesAndLeaves) {
-  FamilySetup setup = setup_with(quiet_place());
+  FamilySetup setup = setup_with(quiet_scene());
   setup.layout.robots = 1;
   const Scenario scenario = make_scenario(setup, kDefaultSeed, 0);
   const TrialResult result = Simulation{scenario, AgentParameters{}}.run();
@@ -134,7 +134,7 @@ TEST(PedestrianFamily, ARobotAloneCrossesAndLeaves) {
 }
 
 TEST(PedestrianFamily, LateIsNotInTime) {
-  FamilySetup setup = setup_with(quiet_place());
+  FamilySetup setup = setup_with(quiet_scene());
   setup.simulation.trial.latest_arrival = 0.8;  // nobody is faster than the obstacle-free optimum
   setup.layout.robots = 1;
   const TrialResult result = Simulation{make_scenario(setup, kDefaultSeed, 0), AgentParameters{}}.run();
@@ -146,7 +146,7 @@ TEST(PedestrianFamily, LateIsNotInTime) {
 /// A person walks along the path of two robots that detect nothing until it is too late; the contact is
 /// counted once for each of them, and all go on.
 TEST(PedestrianFamily, AContactDoesNotEndTheTrial) {
-  std::vector<CrowdSample> samples = quiet_place();
+  std::vector<CrowdSample> samples = quiet_scene();
   add_walk(samples, 10, {9.0, 5.0}, {-1.0, 0.0}, 0.0, 8.8);
   FamilySetup setup = setup_with(samples);
   setup.simulation.sensing.range = 0.1;

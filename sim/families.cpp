@@ -254,7 +254,7 @@ int attempts_for(const LayoutParameters& layout) {
   return std::clamp(kMostThings / (layout.robots + layout.squares + layout.discs + 1), 20, kMaxAttempts);
 }
 
-/// What of the layout found no place in a scene that could not be completed, with how much was wanted.
+/// What of the layout found no room in a scene that could not be completed, with how much was wanted.
 std::pair<std::string, int> what_did_not_fit(Family family, const LayoutParameters& layout,
                                              const Scenario& scenario) {
   const bool draws_shapes = family != Family::swap && family != Family::field;

@@ -214,7 +214,7 @@ TEST(Families, PlatformMirrorsStartsAndHasSeamsBesideTheMiddle) {
   }
 }
 
-TEST(Families, TooMuchForThePlaceIsAnError) {
+TEST(Families, TooMuchForTheSceneIsAnError) {
   FamilySetup setup = family_setup(Family::t2);
   setup.layout.squares = 200;
   setup.layout.squares_within = 2.0;

@@ -11,12 +11,6 @@ namespace spf::sim {
 [[nodiscard]] double distance_to_box(const Eigen::Vector2d& point, const Box& box);
 /// The smaller of two boxes' Euclidean gap, 0 when they touch or overlap.
 [[nodiscard]] double distance_between_boxes(const Box& a, const Box& b);
-/// Point of a segment nearest to `point`.
-[[nodiscard]] Eigen::Vector2d nearest_on_segment(const Eigen::Vector2d& point, const Segment& segment);
-[[nodiscard]] double distance_to_segment(const Eigen::Vector2d& point, const Segment& segment);
-/// True when two segments share a point.
-[[nodiscard]] bool segments_cross(const Segment& a, const Segment& b);
-[[nodiscard]] double distance_between_segments(const Segment& a, const Segment& b);
 /// From a segment to a filled box, 0 when it enters.
 [[nodiscard]] double distance_between(const Segment& segment, const Box& box);
 /// From a point inside the border to its nearest side; negative outside.

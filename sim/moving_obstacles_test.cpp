@@ -13,7 +13,7 @@
 namespace spf::sim {
 namespace {
 
-Scenario open_place(double level, NoiseModel model) {
+Scenario open_scene(double level, NoiseModel model) {
   Scenario scenario;
   scenario.simulation.noise.level = level;
   scenario.simulation.noise.model = model;
@@ -29,7 +29,7 @@ ObstacleState disc_at(double x, double y, double vx, double vy, double radius = 
 }
 
 TEST(MovingObstacles, WithoutNoiseMoveAtConstantVelocity) {
-  Scenario scenario = open_place(0.0, NoiseModel::walk);
+  Scenario scenario = open_scene(0.0, NoiseModel::walk);
   scenario.moving = {disc_at(1.0, 2.0, 0.5, -0.25)};
   MovingObstacles obstacles{scenario};
   EXPECT_EQ(obstacles.now()[0].position_world, scenario.moving[0].position_world);
@@ -41,7 +41,7 @@ TEST(MovingObstacles, WithoutNoiseMoveAtConstantVelocity) {
 }
 
 TEST(MovingObstacles, WhiteNoiseHasThePrintedCovarianceAndKeepsTheVelocity) {
-  Scenario scenario = open_place(2.0, NoiseModel::white);
+  Scenario scenario = open_scene(2.0, NoiseModel::white);
   scenario.moving = {disc_at(0.0, 0.0, 0.6, 0.0), disc_at(5.0, 5.0, 0.0, 0.6)};
   MovingObstacles obstacles{scenario};
   constexpr int kSteps = 20000;
@@ -64,7 +64,7 @@ TEST(MovingObstacles, WhiteNoiseHasThePrintedCovarianceAndKeepsTheVelocity) {
 }
 
 TEST(MovingObstacles, WalkChangesTheVelocityByItsCovarianceAndClipsIt) {
-  Scenario scenario = open_place(0.25, NoiseModel::walk);
+  Scenario scenario = open_scene(0.25, NoiseModel::walk);
   scenario.simulation.noise.speed_limit = 1e6;
   scenario.moving = {disc_at(0.0, 0.0, 0.6, 0.0)};
   MovingObstacles free_walk{scenario};
@@ -90,7 +90,7 @@ TEST(MovingObstacles, WalkChangesTheVelocityByItsCovarianceAndClipsIt) {
 }
 
 TEST(MovingObstacles, ReflectAtTheBorder) {
-  Scenario scenario = open_place(0.0, NoiseModel::white);
+  Scenario scenario = open_scene(0.0, NoiseModel::white);
   scenario.border = square(Eigen::Vector2d::Zero(), 10.0);
   scenario.moving = {disc_at(4.55, 0.0, 1.0, 0.3)};
   MovingObstacles obstacles{scenario};
@@ -100,7 +100,7 @@ TEST(MovingObstacles, ReflectAtTheBorder) {
 }
 
 TEST(MovingObstacles, AreTurnedBackBySquares) {
-  Scenario scenario = open_place(0.0, NoiseModel::white);
+  Scenario scenario = open_scene(0.0, NoiseModel::white);
   scenario.boxes = {square({0.0, 0.0}, 2.0)};
   scenario.moving = {disc_at(-1.45, 0.2, 1.0, 0.5)};
   MovingObstacles obstacles{scenario};
@@ -111,7 +111,7 @@ TEST(MovingObstacles, AreTurnedBackBySquares) {
 }
 
 TEST(MovingObstacles, StayInTheFieldAndOutOfStaticShapes) {
-  Scenario scenario = open_place(2.0, NoiseModel::walk);
+  Scenario scenario = open_scene(2.0, NoiseModel::walk);
   scenario.border = square(Eigen::Vector2d::Zero(), 12.0);
   scenario.boxes = {square({2.0, 2.0}, 1.5)};
   scenario.discs = {{{-3.0, 0.0}, 0.7}};
@@ -131,7 +131,7 @@ TEST(MovingObstacles, StayInTheFieldAndOutOfStaticShapes) {
 
 /// Walls of many pieces turn a disc back as one wall does: along them it keeps its speed.
 TEST(MovingObstacles, SlideAlongWallsOfAMapAndStayInItsRooms) {
-  Scenario scenario = open_place(0.0, NoiseModel::white);
+  Scenario scenario = open_scene(0.0, NoiseModel::white);
   const std::size_t side = 200;
   std::vector<std::int8_t> values(side * side, 0);
   for (std::size_t i = 0; i < side; ++i) values[100 * side + i] = 100;  // a wall from edge to edge
@@ -168,7 +168,7 @@ TEST(MovingObstacles, SlideAlongWallsOfAMapAndStayInItsRooms) {
 }
 
 TEST(MovingObstacles, FirstDiscsDrawTheSameWhateverFollows) {
-  Scenario one = open_place(1.0, NoiseModel::white);
+  Scenario one = open_scene(1.0, NoiseModel::white);
   one.moving = {disc_at(0.0, 0.0, 0.6, 0.0)};
   Scenario other_level = one;
   other_level.simulation.noise.level = 2.0;

@@ -1,4 +1,4 @@
-// The surfaces of a scenario's polygons and static map, as pieces so short that those near a place are found
+// The surfaces of a scenario's polygons and static map, as pieces so short that those near a point are found
 // without testing all. Frame: world.
 #pragma once
 

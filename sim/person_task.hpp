@@ -14,7 +14,7 @@ namespace sim {
 
 enum class PersonBehaviour {
   fixed,     ///< walks straight from waypoint to waypoint at constant speed, whatever is in the way
-  reacting,  ///< avoids robots, other people, moving discs and everything static, and comes back to its way
+  reacting,  ///< avoids robots, other people, moving discs and everything static, and comes back to its path
 };
 
 enum class AtLastWaypoint {
@@ -29,7 +29,7 @@ struct PersonTask {
   double radius = 0.25;                    ///< [m]
   PersonBehaviour behaviour = PersonBehaviour::reacting;
   AtLastWaypoint at_last = AtLastWaypoint::back;
-  bool anywhere = false;  ///< every trial draws where on the way it starts
+  bool anywhere = false;  ///< every trial draws where on the path it starts
 };
 
 }  // namespace sim

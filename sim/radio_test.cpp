@@ -18,19 +18,19 @@ struct Heard {
 
 class Air {
  public:
-  explicit Air(const Scenario& scenario, std::vector<Eigen::Vector2d> places)
-      : radio_{scenario}, places_{std::move(places)} {
-    grid_.assign(places_);
+  explicit Air(const Scenario& scenario, std::vector<Eigen::Vector2d> positions)
+      : radio_{scenario}, positions_{std::move(positions)} {
+    grid_.assign(positions_);
   }
   void send(double time, int sender, std::uint32_t sequence) {
     TrajectoryMessage message;
     message.robot_id = sender;
     message.sequence = sequence;
-    radio_.send(time, message, places_[static_cast<std::size_t>(sender)]);
+    radio_.send(time, message, positions_[static_cast<std::size_t>(sender)]);
   }
   std::vector<Heard> listen(double time) {
     std::vector<Heard> heard;
-    radio_.deliver(time, grid_, places_, [&](int receiver, const TrajectoryMessage& message) {
+    radio_.deliver(time, grid_, positions_, [&](int receiver, const TrajectoryMessage& message) {
       heard.push_back({time, receiver, message.robot_id, message.sequence});
     });
     return heard;
@@ -39,7 +39,7 @@ class Air {
  private:
   Radio radio_;
   UniformGrid grid_{2.0};
-  std::vector<Eigen::Vector2d> places_;
+  std::vector<Eigen::Vector2d> positions_;
 };
 
 Scenario fleet(std::size_t robots) {

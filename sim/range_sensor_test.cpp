@@ -192,10 +192,10 @@ bool visible_by_sampling(const Scenario& scenario, const std::vector<SeenDisc>& 
                          const Eigen::Vector2d& from, std::size_t target) {
   std::vector<SeenDisc> others = discs;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(target));
-  const Eigen::Vector2d way = from - discs[target].position_world;
-  const double half = std::acos(discs[target].radius / way.norm());
+  const Eigen::Vector2d outwards = from - discs[target].position_world;
+  const double half = std::acos(discs[target].radius / outwards.norm());
   for (int k = -20; k <= 20; ++k) {
-    const double angle = std::atan2(way.y(), way.x()) + 0.999 * half * k / 20.0;
+    const double angle = std::atan2(outwards.y(), outwards.x()) + 0.999 * half * k / 20.0;
     const Eigen::Vector2d point = discs[target].position_world +
                                   discs[target].radius * Eigen::Vector2d{std::cos(angle), std::sin(angle)};
     const Eigen::Vector2d line = point - from;

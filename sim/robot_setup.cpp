@@ -11,7 +11,7 @@ namespace spf::sim {
 namespace {
 
 constexpr double kOpenMargin = 8.0;   // [m] around everything, where there is no border
-constexpr double kMaxNodes = 0x1p24;  // of a map; larger places get a coarser one
+constexpr double kMaxNodes = 0x1p24;  // of a map; larger scenes get a coarser one
 
 /// A thin wall as points so close that the distance between two of them cannot be told from the wall's: at a
 /// distance d they read at most (resolution / 8)^2 / (2 d) too much.

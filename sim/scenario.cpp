@@ -205,7 +205,7 @@ void check_people(Report& report, const Scenario& scenario) {
         [&](const Polygon& shape) { return signed_distance_to_polygon(start, shape.corners) < 0.0; });
     if (inside || (scenario.map && scenario.map->occupied(start)))
       report.add(where, "must not begin inside a polygon or an occupied cell of the map");
-    else if (const std::string problem = blocked_way(person, shapes); !problem.empty())
+    else if (const std::string problem = blocked_path(person, shapes); !problem.empty())
       report.add(where, problem);
   }
 }

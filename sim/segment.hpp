@@ -1,14 +1,11 @@
-// A line segment. Frame: world [m].
+// The simulator's line segments. Frame: world [m].
 #pragma once
 
-#include <Eigen/Core>
+#include "spf/math/segment.hpp"
 
 namespace spf::sim {
 
 /// A thin wall, a face of something solid, or a seam between two fields of view.
-struct Segment {
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< [m]
-  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< [m]
-};
+using Segment = LineSegment;
 
 }  // namespace spf::sim

@@ -22,7 +22,7 @@ struct Scene {
     scenario.robots.resize(robots.size());
     grid.assign(robots);
   }
-  void add_mover(int id, double x, double y) {
+  void add_obstacle(int id, double x, double y) {
     const Eigen::Vector2d position{x, y};
     dynamic_obstacles.push_back(
         {id, false, false, 0.4, {position, position + Eigen::Vector2d{0.1, 0.0}}, {1.0, 0.0}});
@@ -82,12 +82,12 @@ TEST(Sensing, SeamsMakeThePoseJumpAndTheJumpDecays) {
   EXPECT_LT(error_at(0.52, 0.1).norm(), 1e-12);
 }
 
-TEST(Sensing, SeesMoversWithinItsRangeExactlyAtTheirPlaceNow) {
+TEST(Sensing, SeesObstaclesWithinItsRangeExactlyWhereTheyAre) {
   Scene scene;
   scene.add_robot(0, 0);
-  scene.add_mover(0, 7.85, 0);
-  scene.add_mover(1, 8.1, 0);
-  scene.add_mover(2, -3, 4);
+  scene.add_obstacle(0, 7.85, 0);
+  scene.add_obstacle(1, 8.1, 0);
+  scene.add_obstacle(2, -3, 4);
   Sensing sensing{scene.scenario};
   const Observation seen = scene.observe(sensing, 0, 1.5, 0.5);
   EXPECT_EQ(seen.time, 1.5);
@@ -105,10 +105,10 @@ TEST(Sensing, DetectsNobodyBehindAWallOrABody) {
     Scene scene;
     scene.scenario.simulation.sensing.detections = quality;
     scene.add_robot(0, 0);
-    scene.add_mover(0, 0, 3.5);     // behind the wall
-    scene.add_mover(1, 2.0, 0);     // in the open
-    scene.add_mover(2, 4.0, 0);     // straight behind that
-    scene.add_mover(3, -5.5, 3.0);  // looks out past the wall's end
+    scene.add_obstacle(0, 0, 3.5);     // behind the wall
+    scene.add_obstacle(1, 2.0, 0);     // in the open
+    scene.add_obstacle(2, 4.0, 0);     // straight behind that
+    scene.add_obstacle(3, -5.5, 3.0);  // looks out past the wall's end
     scene.scenario.boxes = {{{-5.0, 1.0}, {5.0, 1.2}}};
     Sensing sensing{scene.scenario};
     std::vector<int> ids;
@@ -125,7 +125,7 @@ TEST(Sensing, DetectsNobodyBehindAWallOrABody) {
 TEST(Sensing, HandsOverScansAloneWhenRobotsFindWhatMovesThemselves) {
   Scene scene;
   scene.add_robot(0, 0);
-  scene.add_mover(0, 3.0, 0);
+  scene.add_obstacle(0, 3.0, 0);
   scene.scenario.simulation.sensing.detections = DetectionQuality::scan;
   scene.scenario.simulation.sensing.map = MapKnowledge::known;
   Sensing sensing{scene.scenario};
@@ -138,12 +138,12 @@ TEST(Sensing, HandsOverScansAloneWhenRobotsFindWhatMovesThemselves) {
 TEST(Sensing, NoisyDetectionsAreDrawnByObstacleAloneAndHideTheVelocity) {
   Scene scene;
   scene.add_robot(0, 0);
-  scene.add_mover(3, 2, 0);
+  scene.add_obstacle(3, 2, 0);
   scene.scenario.simulation.sensing.detections = DetectionQuality::noisy;
   Sensing alone{scene.scenario};
   Sensing together{scene.scenario};
   Scene crowded = scene;
-  crowded.add_mover(1, -2, 0);
+  crowded.add_obstacle(1, -2, 0);
   constexpr int kDraws = 5000;
   double squares = 0.0;
   for (int i = 0; i < kDraws; ++i) {

@@ -46,7 +46,7 @@ constexpr std::array<Shape, 5> kShapes{{{"wall", build_wall},
                                         {"corner", build_corner},
                                         {"gap", build_gap}}};
 
-Scenario unknown_place(double max_speed, double braking, double sight, double shift) {
+Scenario unknown_scene(double max_speed, double braking, double sight, double shift) {
   Scenario scenario;
   scenario.border = Box{{-26.0, -10.0}, {26.0, 10.0}};
   RobotTask task;
@@ -73,7 +73,7 @@ TEST_P(SightSlow, NothingThatStandsIsTouched) {
   for (const double max_speed : {0.5, 1.5, 3.0})
     for (const double braking : {0.1, 0.4, 2.0})
       for (const double sight : {2.0, 6.0}) {
-        Scenario scenario = unknown_place(max_speed, braking, sight, 0.02 * (run++ % 5));
+        Scenario scenario = unknown_scene(max_speed, braking, sight, 0.02 * (run++ % 5));
         GetParam().build(scenario);
         const TrialResult result = drive(scenario);
         EXPECT_NE(result.outcome, TrialOutcome::collision)
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, SightSlow, testing::ValuesIn(kShapes),
                          [](const auto& which) { return std::string{which.param.name}; });
 
 TEST(Sight, AWallSeenInTimeIsDrivenRound) {
-  Scenario scenario = unknown_place(1.5, 0.5, 8.0, 0.0);
+  Scenario scenario = unknown_scene(1.5, 0.5, 8.0, 0.0);
   build_wall(scenario);
   scenario.simulation.trial.time_limit = 120.0;
   EXPECT_EQ(drive(scenario).outcome, TrialOutcome::success);

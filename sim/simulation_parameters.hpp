@@ -109,7 +109,7 @@ struct SensingParameters {
   double field_of_view = 360.0;       ///< [deg] of the range sensor, as much to the left as to the right
   double range_sigma = 0.0;           ///< [m] noise of one beam
   double rate = 10.0;                 ///< [Hz] of detections and scans
-  bool guard = false;        ///< scans guard the robots' way, where there are any; off, since trials compare
+  bool guard = false;        ///< scans guard the robots' path, where there are any; off, since trials compare
                              ///< what planners do, while robots come with their guard on
   host::MapGrain map_grain;  ///< of the robots' maps (coarser where they had too many nodes)
 

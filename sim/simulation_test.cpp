@@ -39,7 +39,7 @@ TrialResult run_recorded(const Scenario& scenario) {
 
 class Tracking : public testing::TestWithParam<TrackingMode> {};
 
-TEST_P(Tracking, ALoneRobotArrivesByTheStraightWay) {
+TEST_P(Tracking, ALoneRobotArrivesByTheStraightPath) {
   const TrialResult result = run(lone_robot(GetParam()));
   EXPECT_EQ(result.outcome, TrialOutcome::success);
   ASSERT_EQ(result.robots.size(), 1U);
@@ -78,7 +78,7 @@ TEST(Simulation, RepeatsBitForBitAndTakesNoNoticeOfClockOrRecording) {
 }
 
 /// Positions of the moving obstacles in every frame.
-std::vector<Eigen::Vector2d> mover_path(const Scenario& scenario) {
+std::vector<Eigen::Vector2d> obstacle_path(const Scenario& scenario) {
   std::vector<Eigen::Vector2d> path;
   const TrialResult result = run_recorded(scenario);
   for (const RecordedFrame& frame : result.recording->frames)
@@ -93,7 +93,7 @@ TEST(Simulation, NoRobotSensorOrRadioMovesTheObstacles) {
   scenario.simulation.noise.model = NoiseModel::walk;
   scenario.simulation.trial.time_limit = 3.0;
   scenario.simulation.trial.after_contact = AfterContact::wreck;  // so that all run equally long
-  const std::vector<Eigen::Vector2d> plain = mover_path(scenario);
+  const std::vector<Eigen::Vector2d> plain = obstacle_path(scenario);
   ASSERT_GT(plain.size(), 100U);
   scenario.simulation.pose_noise.position_sigma = 0.02;
   scenario.simulation.sensing.detections = DetectionQuality::noisy;
@@ -102,7 +102,7 @@ TEST(Simulation, NoRobotSensorOrRadioMovesTheObstacles) {
   scenario.simulation.radio.loss = 0.2;
   scenario.simulation.trial.tracking = TrackingMode::ideal;
   scenario.robots.pop_back();
-  EXPECT_EQ(plain, mover_path(scenario));
+  EXPECT_EQ(plain, obstacle_path(scenario));
 }
 
 /// A disc faster than any robot comes from the side and meets the robot wherever it is: the whole width is
@@ -149,11 +149,11 @@ TEST(Simulation, WrecksStayAndTheOthersGoOn) {
   EXPECT_FALSE(result.robots[0].arrived);
   EXPECT_TRUE(result.robots[1].arrived);
   const double crash = result.contacts[0].time;
-  std::vector<Eigen::Vector2d> places;
+  std::vector<Eigen::Vector2d> positions;
   for (const RecordedFrame& frame : result.recording->frames)
-    if (frame.time > crash + 0.01) places.push_back(frame.robots[0].pose.position_world);
-  ASSERT_GT(places.size(), 10U);
-  EXPECT_EQ(places.front(), places.back());
+    if (frame.time > crash + 0.01) positions.push_back(frame.robots[0].pose.position_world);
+  ASSERT_GT(positions.size(), 10U);
+  EXPECT_EQ(positions.front(), positions.back());
 }
 
 TEST(Simulation, TimeRunsOut) {
@@ -250,7 +250,7 @@ class Tally final : public Planner {
     int calls = 0;
     int failed = 0;
     std::int64_t optimiser_calls = 0;
-    std::int64_t primitives = 0;
+    std::int64_t inner_iterations = 0;
   };
   Tally(const AgentParameters& agent, Sums* sums) : planner_{make_space_time_planner(agent)}, sums_{sums} {}
   void plan(const PlanRequest& request, PlanResult& result) override {
@@ -258,7 +258,7 @@ class Tally final : public Planner {
     ++sums_->calls;
     sums_->failed += succeeded(result.outcome) ? 0 : 1;
     sums_->optimiser_calls += result.stats.optimiser_calls;
-    sums_->primitives += result.stats.primitives;
+    sums_->inner_iterations += result.stats.inner_iterations;
   }
 
  private:
@@ -299,7 +299,7 @@ TEST(Simulation, CountsTheCallsOfThePlannerAlone) {
   EXPECT_EQ(result.robots[0].plans, sums.calls);
   EXPECT_EQ(result.robots[0].failed_plans, sums.failed);
   EXPECT_EQ(result.robots[0].optimiser_calls, sums.optimiser_calls);
-  EXPECT_EQ(result.robots[0].primitives, sums.primitives);
+  EXPECT_EQ(result.robots[0].inner_iterations, sums.inner_iterations);
 }
 
 // One that never re-anchors is not stopped at the default distance from its plan instead.

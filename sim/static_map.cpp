@@ -34,7 +34,7 @@ bool StaticMap::wall_at(std::ptrdiff_t column, std::ptrdiff_t row) const {
                         values_[static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column)]);
 }
 
-/// Faces between two rows (or columns): straight runs of places where a wall is on one side alone, always the
+/// Faces between two rows (or columns): straight runs of cells where a wall is on one side alone, always the
 /// same one.
 void StaticMap::add_faces(bool along_rows) {
   const auto length = static_cast<std::ptrdiff_t>(along_rows ? width_ : height_);

@@ -1,4 +1,4 @@
-// A robot's task from one place to another. Frame: world.
+// A robot's task from one position to another. Frame: world.
 #pragma once
 
 #include <cmath>

@@ -15,7 +15,7 @@
 namespace spf::sim {
 namespace {
 
-// CLUTTER: columns along x between the walls, rows along y, the way. Starts and goals lie beyond the rows.
+// CLUTTER: columns along x between the walls, rows along y, from start to goal, which lie beyond.
 constexpr int kColumns = 28;
 constexpr int kRows = 30;
 constexpr double kPitch = 0.15;  // [m] of the lattice; pillars are as wide
@@ -58,7 +58,7 @@ class PillarGrid {
   std::array<bool, kColumns * kRows> cells_{};
 };
 
-/// Whether a disc of this radius comes from the start to the goal past all static discs: a flood on a fine
+/// Whether a disc of this radius gets from the start to the goal past all static discs: a wavefront on a fine
 /// grid, whose steps may come nearer by half of their length.
 bool passable(const Scenario& scenario, double radius) {
   constexpr double kStep = 0.025;  // [m]
@@ -78,8 +78,8 @@ bool passable(const Scenario& scenario, double radius) {
     const int high_j = std::min(height - 1, static_cast<int>((disc.center.y() + reach + kEnd) / kStep) + 1);
     for (int j = low_j; j <= high_j; ++j)
       for (int i = low_i; i <= high_i; ++i) {
-        const Eigen::Vector2d place{i * kStep - half_width, j * kStep - kEnd};
-        if ((place - disc.center).squaredNorm() < reach * reach) free[slot(i, j)] = 0;
+        const Eigen::Vector2d node{i * kStep - half_width, j * kStep - kEnd};
+        if ((node - disc.center).squaredNorm() < reach * reach) free[slot(i, j)] = 0;
       }
   }
   std::vector<Eigen::Vector2i> reached{{width / 2, 0}};
@@ -98,7 +98,7 @@ bool passable(const Scenario& scenario, double radius) {
   return false;
 }
 
-/// Half of the narrowest place that a family promises [m], and the layout's key that says so.
+/// Half of the narrowest passage that a family promises [m], and the layout's key that says so.
 std::pair<double, const char*> promised_room(const FamilySetup& setup) {
   switch (setup.family) {
     case Family::clutter:
@@ -145,15 +145,15 @@ bool draw_clutter(RandomStream& random, const LayoutParameters& layout, Scenario
 }
 
 bool draw_doors(RandomStream& random, const LayoutParameters& layout, Scenario& scenario) {
-  const Box kPlace{{-6.0, -4.0}, {6.0, 4.0}};
+  const Box kHall{{-6.0, -4.0}, {6.0, 4.0}};
   const double width = random.uniform(layout.door_width_low, layout.door_width_high);
   const double middle = random.uniform(-2.0, 2.0);
   const double wall = random.uniform(0.0, 0.6);
   const double half_wall = 0.5 * random.uniform(layout.wall_thickness_low, layout.wall_thickness_high);
-  scenario.border = kPlace;
-  scenario.boxes.push_back({{wall - half_wall, middle + 0.5 * width}, {wall + half_wall, kPlace.high.y()}});
-  scenario.boxes.push_back({{wall - half_wall, kPlace.low.y()}, {wall + half_wall, middle - 0.5 * width}});
-  if (scenario.boxes[0].low.y() >= kPlace.high.y() || scenario.boxes[1].high.y() <= kPlace.low.y())
+  scenario.border = kHall;
+  scenario.boxes.push_back({{wall - half_wall, middle + 0.5 * width}, {wall + half_wall, kHall.high.y()}});
+  scenario.boxes.push_back({{wall - half_wall, kHall.low.y()}, {wall + half_wall, middle - 0.5 * width}});
+  if (scenario.boxes[0].low.y() >= kHall.high.y() || scenario.boxes[1].high.y() <= kHall.low.y())
     return false;
   const double start = random.uniform(-3.0, 3.0);
   scenario.robots.push_back(task_between({-4.0, start}, {4.0, random.uniform(-3.0, 3.0)}));

@@ -36,9 +36,9 @@ void build(const TwoRooms& rooms, Scenario& scenario) {
   scenario.boxes.push_back({{rooms.low_wall, -rooms.half_width}, {rooms.high_wall, rooms.middle - half}});
 }
 
-/// A place in the left (-1) or right (1) room, away from what is taken and from the passage.
-bool draw_place(RandomStream& random, const TwoRooms& rooms, int side, double radius,
-                std::vector<Eigen::Vector2d>& taken) {
+/// A position in the left (-1) or right (1) room, away from what is taken and from the passage.
+bool draw_position(RandomStream& random, const TwoRooms& rooms, int side, double radius,
+                   std::vector<Eigen::Vector2d>& taken) {
   const double wall = side < 0 ? rooms.low_wall : rooms.high_wall;
   const double outer = side * (rooms.half_length - radius - kWallClear);
   const double inner = wall + side * (radius + kWallClear);
@@ -46,11 +46,11 @@ bool draw_place(RandomStream& random, const TwoRooms& rooms, int side, double ra
   const Eigen::Vector2d end{wall, rooms.middle};
   for (int tries = 0; tries < kMostTries; ++tries) {
     const double x = random.uniform(std::min(inner, outer), std::max(inner, outer));
-    const Eigen::Vector2d place{x, random.uniform(-most_y, most_y)};
-    bool free = (place - end).norm() >= kDoorClear + radius;
-    for (const Eigen::Vector2d& other : taken) free = free && (place - other).norm() >= 2.0 * radius + kApart;
+    const Eigen::Vector2d point{x, random.uniform(-most_y, most_y)};
+    bool free = (point - end).norm() >= kDoorClear + radius;
+    for (const Eigen::Vector2d& other : taken) free = free && (point - other).norm() >= 2.0 * radius + kApart;
     if (!free) continue;
-    taken.push_back(place);
+    taken.push_back(point);
     return true;
   }
   return false;
@@ -62,8 +62,8 @@ bool place_robots(RandomStream& random, const TwoRooms& rooms, int robots, Scena
   std::vector<Eigen::Vector2d> goals;
   for (int i = 0; i < robots; ++i) {
     const int side = i % 2 == 0 ? -1 : 1;
-    if (!draw_place(random, rooms, side, radius, starts)) return false;
-    if (!draw_place(random, rooms, -side, radius, goals)) return false;
+    if (!draw_position(random, rooms, side, radius, starts)) return false;
+    if (!draw_position(random, rooms, -side, radius, goals)) return false;
     scenario.robots.push_back(task_between(starts.back(), goals.back()));
   }
   return true;

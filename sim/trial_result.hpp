@@ -9,7 +9,7 @@
 
 #include "sim/contact.hpp"
 #include "spf/math/parameters.hpp"
-#include "spf/team/agent_status.hpp"
+#include "spf/team/stop_cause.hpp"
 
 namespace spf::sim {
 
@@ -49,8 +49,6 @@ struct RobotResult {
   int failed_plans = 0;              ///< those whose outcome is not success or goal_reached
   std::int64_t optimiser_calls = 0;  ///< L-BFGS runs (the paper's iterations)
   std::int64_t inner_iterations = 0;
-  std::int64_t evaluations = 0;
-  std::int64_t primitives = 0;
   int guard_stops = 0;                      ///< by the guard, in the whole trial
   double guard_held = 0.0;                  ///< [s] in which the guard slowed or stopped it, likewise
   double static_clearance = 0.0;            ///< [m] least, minus the radius; at most 3 m

@@ -28,12 +28,12 @@ Eigen::Vector2d avoidance(const Body& self, const Body& other, double touching, 
   if (time <= 0.0 || time > kLookAhead) return push;
   const Eigen::Vector2d nearest = apart + time * closing;
   const Eigen::Vector2d to_the_right = Eigen::Vector2d{closing.y(), -closing.x()} / std::sqrt(closing_square);
-  const Eigen::Vector2d way_out = nearest + 0.1 * to_the_right;
+  const Eigen::Vector2d escape = nearest + 0.1 * to_the_right;
   const double strength =
       kAvoiding * std::exp(-time / kUrgency + std::min(0.0, touching - nearest.norm()) / kComfort);
   constexpr double kUndecided = 1e-6;  // [m] the other side is as good
-  const double size = way_out.norm();
-  return push + strength * (size > kUndecided ? Eigen::Vector2d{way_out.normalized()} : to_the_right);
+  const double size = escape.norm();
+  return push + strength * (size > kUndecided ? Eigen::Vector2d{escape.normalized()} : to_the_right);
 }
 
 Eigen::Vector2d within_strength(const Eigen::Vector2d& acceleration) {

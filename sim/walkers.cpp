@@ -13,7 +13,7 @@ constexpr double kWallStrength = 5.0;  // [m/s^2] at a touched wall, and
 constexpr double kWallRange = 0.15;    // [m] the distance over which it falls to 1/e
 constexpr double kWallReach = 1.0;     // [m] walls farther off do not matter
 
-/// Times a way is walked along its waypoints and, where it leads back, along them again.
+/// Times a path is walked along its waypoints and, where it leads back, along them again.
 std::size_t legs_of(const PersonTask& task) {
   const std::size_t count = task.waypoints.size();
   if (count < 2) return 0;
@@ -21,7 +21,7 @@ std::size_t legs_of(const PersonTask& task) {
   return task.at_last == AtLastWaypoint::back ? 2 * (count - 1) : count - 1;
 }
 
-double length_of_way(const PersonTask& task) {
+double length_of_path(const PersonTask& task) {
   double length = 0.0;
   for (std::size_t i = 1; i < task.waypoints.size(); ++i)
     length += (task.waypoints[i] - task.waypoints[i - 1]).norm();
@@ -45,7 +45,7 @@ Walkers::Walkers(const Scenario& scenario) : shapes_{scenario} {
   }
 }
 
-/// Anywhere on the way, but not beside a robot: then it is drawn again.
+/// Anywhere on the path, but not beside a robot: then it is drawn again.
 void Walkers::choose_start(const Scenario& scenario, std::size_t index, Person& person) const {
   constexpr double kStartGap = 0.7;  // [m] between the bodies
   constexpr int kMostDraws = 100;
@@ -53,7 +53,7 @@ void Walkers::choose_start(const Scenario& scenario, std::size_t index, Person& 
   const Person at_first = person;
   for (int draw = 0; draw < kMostDraws; ++draw) {
     person = at_first;
-    follow_way(person, random.uniform() * length_of_way(person.task));
+    follow_path(person, random.uniform() * length_of_path(person.task));
     const double wanted = kStartGap + scenario.robot.radius + person.task.radius;
     const bool near =
         std::any_of(scenario.robots.begin(), scenario.robots.end(), [&](const RobotTask& robot) {
@@ -78,15 +78,15 @@ void Walkers::pass_waypoint(Person& person) const {
   }
 }
 
-/// Along the straight way, through as many waypoints as the distance takes it.
-void Walkers::follow_way(Person& person, double distance) const {
-  // Waypoints in one place take no distance: nobody passes more of them in one step than there are.
+/// Along the straight line, through as many waypoints as the distance takes it.
+void Walkers::follow_path(Person& person, double distance) const {
+  // Waypoints at one position take no distance: nobody passes more of them in one step than there are.
   for (std::size_t passed = 0; !person.done && passed <= legs_of(person.task); ++passed) {
     const Eigen::Vector2d& target = person.task.waypoints[person.next];
-    const Eigen::Vector2d way = target - person.body.position;
-    const double length = way.norm();
+    const Eigen::Vector2d leg = target - person.body.position;
+    const double length = leg.norm();
     if (length > distance) {
-      person.body.position += way * (distance / length);
+      person.body.position += leg * (distance / length);
       return;
     }
     distance -= length;
@@ -102,11 +102,11 @@ Eigen::Vector2d Walkers::wanted_velocity(Person& person) const {
   if (!person.done && reached()) pass_waypoint(person);
   const Eigen::Vector2d& target =
       person.done ? person.task.waypoints.back() : person.task.waypoints[person.next];
-  const Eigen::Vector2d way = target - person.body.position;
-  const double length = way.norm();
-  // Who stays where the way ends comes back when pushed away, without haste.
+  const Eigen::Vector2d leg = target - person.body.position;
+  const double length = leg.norm();
+  // Who stays where the path ends comes back when pushed away, without haste.
   const double speed = person.done ? std::min(person.task.speed, length) : person.task.speed;
-  return length > 1e-9 ? Eigen::Vector2d{way * (speed / length)} : Eigen::Vector2d::Zero();
+  return length > 1e-9 ? Eigen::Vector2d{leg * (speed / length)} : Eigen::Vector2d::Zero();
 }
 
 /// Unit vector away from what is near, by differences of the clearance.
@@ -114,7 +114,7 @@ Eigen::Vector2d Walkers::away_from_surfaces(const Eigen::Vector2d& position) con
   constexpr double kDifference = 1e-3;  // [m]
   const Eigen::Vector2d dx{kDifference, 0.0};
   const Eigen::Vector2d dy{0.0, kDifference};
-  const auto at = [&](const Eigen::Vector2d& place) { return shapes_.clearance(place, 0.0, kWallReach); };
+  const auto at = [&](const Eigen::Vector2d& probe) { return shapes_.clearance(probe, 0.0, kWallReach); };
   const Eigen::Vector2d slope{at(position + dx) - at(position - dx), at(position + dy) - at(position - dy)};
   const double size = slope.norm();
   return size > 0.0 ? Eigen::Vector2d{slope / size} : Eigen::Vector2d::Zero();
@@ -158,7 +158,7 @@ void Walkers::advance(const std::vector<RoundBody>& others) {
     Person& person = people_[i];
     person.motion.from = person.body.position;
     if (person.task.behaviour == PersonBehaviour::fixed) {
-      follow_way(person, person.task.speed * kStep);
+      follow_path(person, person.task.speed * kStep);
       person.motion.to = person.body.position;
       person.body.velocity = (person.motion.to - person.motion.from) / kStep;
       continue;
@@ -169,7 +169,7 @@ void Walkers::advance(const std::vector<RoundBody>& others) {
   }
 }
 
-std::string blocked_way(const PersonTask& task, const StaticShapes& shapes) {
+std::string blocked_path(const PersonTask& task, const StaticShapes& shapes) {
   const std::size_t count = task.waypoints.size();
   const std::size_t legs = task.at_last == AtLastWaypoint::loop ? count : count - 1;
   for (std::size_t i = 0; i < std::max<std::size_t>(legs, 1); ++i) {
@@ -178,7 +178,7 @@ std::string blocked_way(const PersonTask& task, const StaticShapes& shapes) {
     if (!contact) continue;
     std::string other = enum_name(contact->with);
     if (contact->other >= 0) other += " " + std::to_string(contact->other);
-    return "must leave a way: from waypoint " + std::to_string(i) + " to " + std::to_string(next) +
+    return "must leave a path: from waypoint " + std::to_string(i) + " to " + std::to_string(next) +
            " a person of this radius meets " + other;
   }
   return "";

@@ -42,7 +42,7 @@ class Walkers {
   };
   void choose_start(const Scenario& scenario, std::size_t index, Person& person) const;
   void pass_waypoint(Person& person) const;
-  void follow_way(Person& person, double distance) const;
+  void follow_path(Person& person, double distance) const;
   [[nodiscard]] Eigen::Vector2d wanted_velocity(Person& person) const;
   [[nodiscard]] Eigen::Vector2d acceleration_of(const Person& person, const Eigen::Vector2d& wanted,
                                                 const std::vector<RoundBody>& others) const;
@@ -53,7 +53,7 @@ class Walkers {
   std::vector<Person> people_;
 };
 
-/// Where the way of a person leads through something static, in words, naming the waypoints; "" when nowhere.
-[[nodiscard]] std::string blocked_way(const PersonTask& task, const StaticShapes& shapes);
+/// Where a person's path leads through something static, in words, naming the waypoints; "" when nowhere.
+[[nodiscard]] std::string blocked_path(const PersonTask& task, const StaticShapes& shapes);
 
 }  // namespace spf::sim

@@ -119,7 +119,7 @@ TEST(Walkers, AReactingPersonStaysOutOfWalls) {
   scenario.polygons = {{{{8.0, -0.8}, {9.0, -0.8}, {8.5, -0.2}}}};
   scenario.people = {person_on({{0.0, -0.2}, {12.0, 0.2}}), person_on({{12.0, 0.2}, {0.0, -0.2}})};
   const StaticShapes shapes{scenario};
-  for (const PersonTask& person : scenario.people) ASSERT_EQ(blocked_way(person, shapes), "");
+  for (const PersonTask& person : scenario.people) ASSERT_EQ(blocked_path(person, shapes), "");
   Walkers walkers{scenario};
   double farthest = 0.0;
   for (int step = 0; step < 2000; ++step) {
@@ -143,7 +143,7 @@ TEST(Walkers, AWayThroughAWallIsNamed) {
   ASSERT_EQ(problems_of(scenario).size(), 1u);
   EXPECT_EQ(
       to_text(problems_of(scenario)[0]),
-      "people[0].waypoints must leave a way: from waypoint 3 to 0 a person of this radius meets wall 0");
+      "people[0].waypoints must leave a path: from waypoint 3 to 0 a person of this radius meets wall 0");
   scenario.people = {person_on({{0.0, 5.2}})};
   ASSERT_EQ(problems_of(scenario).size(), 1u);
   EXPECT_THAT(to_text(problems_of(scenario)[0]), HasSubstr("robots[0].start is inside people[0]"));

@@ -87,7 +87,7 @@ class NamedColumns : public CrowdFormat {
   }
 
  private:
-  /// The place of a column, by the first of its names that there is.
+  /// The index of a column, by the first of its names that there is.
   [[nodiscard]] std::optional<std::size_t> find(const Column& column) const {
     for (const std::string_view name : column.names) {
       const auto found = name.empty() ? names_.end() : std::find(names_.begin(), names_.end(), name);
@@ -107,10 +107,10 @@ class NamedColumns : public CrowdFormat {
     }
     bool complete = names.size() <= kMostColumns;
     if (!complete) collector.refuse("names more than " + std::to_string(kMostColumns) + " columns");
-    const auto require = [&](const std::optional<std::size_t>& place, std::string_view name,
+    const auto require = [&](const std::optional<std::size_t>& column, std::string_view name,
                              std::size_t& kept) {
-      if (place) {
-        kept = *place;
+      if (column) {
+        kept = *column;
         return;
       }
       collector.refuse("the column " + std::string{name} +

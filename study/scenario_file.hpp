@@ -145,8 +145,9 @@ struct PersonEntry {
     visit("radius", self.task.radius, "m", Range{0.01, 10.0}, "radius of the body");
     visit("behaviour", self.task.behaviour,
           "fixed: straight on, whatever is in the way; reacting: avoids robots, people and what stands");
-    visit("at_last", self.task.at_last, "at the last waypoint: back along the way, on to the first, or stay");
-    visit("anywhere", self.task.anywhere, "every trial draws where on the way the person starts");
+    visit("at_last", self.task.at_last,
+          "at the last waypoint: back along the path, on to the first, or stay");
+    visit("anywhere", self.task.anywhere, "every trial draws where on the path the person starts");
   }
 };
 

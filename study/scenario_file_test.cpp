@@ -156,7 +156,7 @@ TEST(ScenarioFile, DescribesASceneByHand) {
   EXPECT_EQ(scenario.moving[0].velocity_world, (Eigen::Vector2d{0.0, 0.5}));
 }
 
-TEST(ScenarioFile, PutsPeopleIntoADrawnPlace) {
+TEST(ScenarioFile, PutsPeopleIntoADrawnScene) {
   const std::string plaza = (kScenarios / "crowds" / "plaza.csv").string();
   const std::string text =
       "family: explicit\nrobots: [{start: [0, 0], goal: [5, 0]}]\ntrial: {time_limit: 30}\n"

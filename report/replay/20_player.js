@@ -61,8 +61,8 @@ function setSpeed(speed) {
   repaint();
 }
 
-function changeSpeed(places) {
-  const index = SPEEDS.indexOf(state.speed) + places;
+function changeSpeed(steps) {
+  const index = SPEEDS.indexOf(state.speed) + steps;
   setSpeed(SPEEDS[Math.min(Math.max(index, 0), SPEEDS.length - 1)]);
 }
 
@@ -73,9 +73,9 @@ function chooseRobot(robot) {
   repaint();
 }
 
-function chooseNeighbour(places) {
+function chooseNeighbour(steps) {
   if (run.robots.length === 0) return;
-  const index = run.robots.indexOf(state.robot) + places;
+  const index = run.robots.indexOf(state.robot) + steps;
   chooseRobot(run.robots[(index + run.robots.length) % run.robots.length]);
 }
 

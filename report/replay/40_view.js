@@ -70,7 +70,7 @@ function robotNear(px, py) {
 const pointers = new Map();
 let moved = 0;
 
-function pointerPlace(event) {
+function pointerPosition(event) {
   const box = sceneCanvas.getBoundingClientRect();
   return { x: event.clientX - box.left, y: event.clientY - box.top };
 }
@@ -82,28 +82,28 @@ function middleAndSpread() {
 
 sceneCanvas.addEventListener("pointerdown", (event) => {
   sceneCanvas.setPointerCapture(event.pointerId);
-  pointers.set(event.pointerId, pointerPlace(event));
+  pointers.set(event.pointerId, pointerPosition(event));
   moved = pointers.size === 1 ? 0 : Infinity;
 });
 
 sceneCanvas.addEventListener("pointermove", (event) => {
   if (!pointers.has(event.pointerId)) return;
   const before = pointers.size === 2 ? middleAndSpread() : pointers.get(event.pointerId);
-  const place = pointerPlace(event);
-  pointers.set(event.pointerId, place);
+  const position = pointerPosition(event);
+  pointers.set(event.pointerId, position);
   if (pointers.size === 2) {
     const after = middleAndSpread();
     zoomAt(after.x, after.y, after.spread / before.spread);
     panBy(after.x - before.x, after.y - before.y);
   } else if (pointers.size === 1) {
-    moved += Math.hypot(place.x - before.x, place.y - before.y);
-    if (moved > 4) panBy(place.x - before.x, place.y - before.y);
+    moved += Math.hypot(position.x - before.x, position.y - before.y);
+    if (moved > 4) panBy(position.x - before.x, position.y - before.y);
   }
 });
 
 sceneCanvas.addEventListener("pointerup", (event) => {
-  const place = pointerPlace(event);
-  if (pointers.delete(event.pointerId) && moved <= 4) chooseRobot(robotNear(place.x, place.y));
+  const position = pointerPosition(event);
+  if (pointers.delete(event.pointerId) && moved <= 4) chooseRobot(robotNear(position.x, position.y));
 });
 sceneCanvas.addEventListener("pointercancel", (event) => pointers.delete(event.pointerId));
 
@@ -111,6 +111,6 @@ sceneCanvas.addEventListener("pointercancel", (event) => pointers.delete(event.p
 sceneCanvas.addEventListener("wheel", (event) => {
   if (document.activeElement !== sceneCanvas && !event.ctrlKey && !event.metaKey) return;
   event.preventDefault();
-  const place = pointerPlace(event);
-  zoomAt(place.x, place.y, Math.exp(-Math.sign(event.deltaY) * Math.min(Math.abs(event.deltaY), 120) * 0.0018));
+  const position = pointerPosition(event);
+  zoomAt(position.x, position.y, Math.exp(-Math.sign(event.deltaY) * Math.min(Math.abs(event.deltaY), 120) * 0.0018));
 }, { passive: false });

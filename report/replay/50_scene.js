@@ -6,7 +6,7 @@ const LAYERS = [
 ];
 const layers = Object.fromEntries(LAYERS.map(([name, , on]) => [name, on]));
 const cellsOf = new Map();  // robot -> PerceivedCells
-const TRAIL_TIME = 8;       // [s] of the others; the chosen robot shows its whole way
+const TRAIL_TIME = 8;       // [s] of the others; the chosen robot shows its whole path
 const CANDIDATE_DASHES = [[7, 4], [2, 4], [10, 3, 2, 3], [4, 2], [12, 5], [1, 3], [8, 2, 1, 2, 1, 2], [5, 7]];
 
 let pen = null;  // 2d context of the scene
@@ -318,7 +318,7 @@ function drawSensing(robot, frame) {
   pen.setLineDash([]);
 }
 
-/** Cross at the estimated place, ellipse of two standard deviations. */
+/** Cross at the estimated position, ellipse of two standard deviations. */
 function drawEstimate(robot, frame) {
   const x = sample(robot.estimateX, frame), y = sample(robot.estimateY, frame);
   if (!Number.isFinite(x + y)) return;

@@ -41,8 +41,8 @@ function toggleTheme() {
 
 // Address: ?t=12.5&robot=3 or #t=12.5&robot=3; the part behind # wins and is kept up to date.
 function readAddress() {
-  const places = [new URLSearchParams(location.search), new URLSearchParams(location.hash.slice(1))];
-  const value = (name) => places.map((place) => place.get(name)).filter((text) => text !== null && text.trim() !== "").pop();
+  const sources = [new URLSearchParams(location.search), new URLSearchParams(location.hash.slice(1))];
+  const value = (name) => sources.map((source) => source.get(name)).filter((text) => text !== null && text.trim() !== "").pop();
   if (value("robot") !== undefined) chooseRobot(robotWithId(Number(value("robot"))));
   if (value("t") !== undefined) setTime(Number(value("t")));
 }

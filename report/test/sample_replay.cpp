@@ -20,7 +20,7 @@ double wiggle(double t, int k) {
   return 0.6 * std::sin(7.3 * t + 1.7 * k) + 0.4 * std::sin(17.9 * t + 0.6 * k);
 }
 
-/// Smooth share of the way, 0 at the start and 1 at the end.
+/// Smooth share of the path, 0 at the start and 1 at the end.
 double progress(double t, double duration) {
   const double s = std::clamp(t / duration, 0.0, 1.0);
   return s * s * s * (10.0 + s * (6.0 * s - 15.0));

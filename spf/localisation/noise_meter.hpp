@@ -1,7 +1,7 @@
-// How noisy measurements are, from themselves: noise that is fresh in each of them makes one too large and
-// the change to the next too small. So of two surprises in a row (by which the measured change differs from
-// the expected one) the product is on average minus the variance of the noise, whereas motion that was not
-// expected surprises alike twice.
+// Variance of white measurement noise, from the measurements themselves. An innovation is the measured change
+// from one measurement to the next minus the predicted change. Every measurement's noise enters two
+// innovations in a row, with opposite signs, so the mean of their product is minus the variance of the noise.
+// A lasting error of the prediction enters both with the same sign and only lowers the estimate.
 #pragma once
 
 #include <algorithm>
@@ -10,22 +10,22 @@ namespace spf {
 
 class NoiseMeter {
  public:
-  /// `remembered` [1]: measurements over which it averages.
+  /// `remembered` [1]: number of measurements over which it averages.
   explicit NoiseMeter(int remembered) : remembered_{remembered} {}
 
-  /// By how much the next measured change differs from the expected one.
-  void note(double surprise) {
-    if (surprises_ > 0) mean_ += (-surprise * last_ - mean_) / surprises_;
-    surprises_ = std::min(surprises_ + 1, remembered_);
-    last_ = surprise;
+  /// The next innovation.
+  void note(double innovation) {
+    if (count_ > 0) mean_ += (-innovation * last_ - mean_) / count_;
+    count_ = std::min(count_ + 1, remembered_);
+    last_ = innovation;
   }
-  /// Of one measurement; 0 while nothing tells of noise.
+  /// Variance of one measurement; 0 while there is no evidence of noise.
   [[nodiscard]] double variance() const { return std::max(mean_, 0.0); }
   void reset() { *this = NoiseMeter{remembered_}; }
 
  private:
   int remembered_;
-  int surprises_ = 0;
+  int count_ = 0;
   double last_ = 0.0;
   double mean_ = 0.0;
 };

@@ -15,7 +15,7 @@ constexpr double kGate = 6.0;  // [1] innovations beyond this many sigma (plus t
 constexpr double kHeadingGateFloor = 0.1;  // [rad]
 constexpr int kReinitialiseCount = 5;      // outliers in a row that agree with each other are believed
 constexpr std::size_t kHeading = 2;
-// Deviation of the unknown disturbance at the start [m/s], [rad/s]: a few centimetres a second of slip.
+// Deviation of the unknown disturbance at the start [m/s], [rad/s]: a few centimetres a second of wheel slip.
 constexpr double kInitialDisturbanceSigma = 0.05;
 // Outliers that do not agree with each other are accepted after this many times kReinitialiseCount: the
 // declared noise is then wrong, and a bad measurement is better than none for ever.

@@ -26,7 +26,7 @@ struct ObserverParameters {
   double heading_bandwidth = 0.5;  ///< [rad/s] eso: w of the heading (paper: the same)
   double pose_sigma = 0.0;         ///< [m] of a measurement, per axis; 0 = exact
   double heading_sigma = 0.0;      ///< [rad] of a measurement; 0 = exact
-  double velocity_noise = 0.05;    ///< [m/sqrt(s)] slip, white in the velocity
+  double velocity_noise = 0.05;    ///< [m/sqrt(s)] wheel slip, white in the velocity
   double drift_noise = 0.02;       ///< [m/s/sqrt(s)] random walk of the disturbance velocity
   double max_disturbance = 0.5;    ///< [m/s] and [rad/s], bound of the estimated disturbance
   double gate_floor = 0.02;        ///< [m]
@@ -46,7 +46,7 @@ struct ObserverParameters {
     visit("heading_sigma", self.heading_sigma, "rad", Range{0.0, 3.0},
           "standard deviation of a measured heading; 0 = exact");
     visit("velocity_noise", self.velocity_noise, ScaledUnit{"m/sqrt(s)", Scale::speed}, Range{0.0, 10.0},
-          "white noise of the velocity (slip); our choice");
+          "white noise of the velocity (wheel slip); our choice");
     visit("drift_noise", self.drift_noise, ScaledUnit{"m/s/sqrt(s)", Scale::speed}, Range{0.0, 10.0},
           "random walk of the disturbance velocity; our choice");
     visit("max_disturbance", self.max_disturbance, kSpeedByRobot, Range{0.0, 100.0},

@@ -410,7 +410,7 @@ TEST(PoseObserver, ReckonsWithNoiseThatNobodyDeclared) {
   EXPECT_LT(shaking, 0.1);
 }
 
-// Slip, drift and a floor that moves are no noise of the measurements.
+// Wheel slip, drift and a floor that moves are no noise of the measurements.
 TEST(PoseObserver, ExactMeasurementsStayExactWhateverTheRobotDoes) {
   RandomStream random{18};
   PoseObserver observer{parameters_of(ObserverKind::kalman, 0.0)};

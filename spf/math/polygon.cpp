@@ -6,24 +6,21 @@
 #include <limits>
 
 #include "spf/math/plane.hpp"
+#include "spf/math/segment.hpp"
 
 namespace spf {
 
 double signed_distance_to_polygon(const Eigen::Vector2d& point, const std::vector<Eigen::Vector2d>& corners) {
-  double nearest_squared = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity();
   bool inside = false;  // a ray from the point to the right crosses the outline an odd number of times
   for (std::size_t i = 0, last = corners.size() - 1; i < corners.size(); last = i++) {
     const Eigen::Vector2d along = corners[i] - corners[last];
     const Eigen::Vector2d offset = point - corners[last];
-    const double squared_length = along.squaredNorm();
-    const double share =
-        squared_length > 0.0 ? std::clamp(offset.dot(along) / squared_length, 0.0, 1.0) : 0.0;
-    nearest_squared = std::min(nearest_squared, (offset - share * along).squaredNorm());
+    nearest = std::min(nearest, distance_to_segment(point, {corners[last], corners[i]}));
     const bool crosses_height = (corners[i].y() > point.y()) != (corners[last].y() > point.y());
     if (crosses_height && (cross(along, offset) > 0.0) == (along.y() > 0.0)) inside = !inside;
   }
-  const double distance = std::sqrt(nearest_squared);
-  return inside ? -distance : distance;
+  return inside ? -nearest : nearest;
 }
 
 double signed_area(const std::vector<Eigen::Vector2d>& corners) {

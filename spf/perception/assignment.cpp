@@ -17,7 +17,7 @@ Assignment::Assignment() {
   for (std::vector<int>* list :
        {&column_of_row_, &row_of_column_, &rows_, &columns_, &local_row_, &local_column_})
     list->reserve(kUsual);
-  for (std::vector<int>* list : {&parent_, &matched_row_, &way_}) list->reserve(2 * kUsual + 1);
+  for (std::vector<int>* list : {&parent_, &matched_row_, &previous_}) list->reserve(2 * kUsual + 1);
   for (std::vector<double>* list : {&row_price_, &column_price_, &slack_}) list->reserve(2 * kUsual + 1);
   visited_.reserve(2 * kUsual + 1);
   pairs_.reserve(4 * kUsual);
@@ -52,8 +52,8 @@ int Assignment::root_of(int node) {
 
 /// Drops pairs that cost too much and sorts the others by component.
 void Assignment::part(int rows, int columns, double unassigned_cost) {
-  const auto too_dear = [&](const AssignmentPair& pair) { return !(pair.cost < unassigned_cost); };
-  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), too_dear), pairs_.end());
+  const auto too_costly = [&](const AssignmentPair& pair) { return !(pair.cost < unassigned_cost); };
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), too_costly), pairs_.end());
   parent_.resize(as_index(rows + columns));
   for (int node = 0; node < rows + columns; ++node) parent_[as_index(node)] = node;
   for (const AssignmentPair& pair : pairs_)
@@ -127,7 +127,7 @@ void Assignment::solve_exactly(std::size_t first, std::size_t last, double unass
 /// Assigns one more row along the cheapest augmenting path (Dijkstra on reduced costs).
 void Assignment::augment(int row, int width) {
   slack_.assign(as_index(width) + 1, std::numeric_limits<double>::infinity());
-  way_.assign(as_index(width) + 1, 0);
+  previous_.assign(as_index(width) + 1, 0);
   visited_.assign(as_index(width) + 1, 0);
   matched_row_[0] = row;
   int here = 0;
@@ -142,7 +142,7 @@ void Assignment::augment(int row, int width) {
                              row_price_[as_index(looking)] - column_price_[as_index(column)];
       if (reduced < slack_[as_index(column)]) {
         slack_[as_index(column)] = reduced;
-        way_[as_index(column)] = here;
+        previous_[as_index(column)] = here;
       }
       if (slack_[as_index(column)] < step) {
         step = slack_[as_index(column)];
@@ -160,7 +160,7 @@ void Assignment::augment(int row, int width) {
     here = next;
   } while (matched_row_[as_index(here)] >= 0);
   while (here != 0) {
-    const int before = way_[as_index(here)];
+    const int before = previous_[as_index(here)];
     matched_row_[as_index(here)] = matched_row_[as_index(before)];
     here = before;
   }

@@ -45,7 +45,7 @@ class Assignment {
   std::vector<int> rows_, columns_, local_row_, local_column_;
   std::vector<double> cost_;  // rows x width
   std::vector<double> row_price_, column_price_, slack_;
-  std::vector<int> matched_row_, way_;
+  std::vector<int> matched_row_, previous_;
   std::vector<char> visited_;
 };
 

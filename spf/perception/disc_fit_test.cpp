@@ -58,8 +58,8 @@ Eigen::Vector3d search_minimum(const DiscFitProblem& problem, Eigen::Vector3d be
       better = false;
       for (int direction = 0; direction < 26; ++direction) {
         const int code = direction < 13 ? direction : direction + 1;
-        const Eigen::Vector3d way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
-        const Eigen::Vector3d next = best + step * way;
+        const Eigen::Vector3d offset(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+        const Eigen::Vector3d next = best + step * offset;
         const double there = cost_at(problem, next);
         if (there >= cost) continue;
         best = next;

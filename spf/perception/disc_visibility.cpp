@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "spf/math/plane.hpp"
+#include "spf/math/segment.hpp"
 
 namespace spf {
 namespace {
@@ -95,10 +96,7 @@ bool vacated(const SensorSweep& sweep, const Eigen::Vector2d& point_world, doubl
     }
   }
   if (hits < 2) return true;
-  const Eigen::Vector2d along = ends[1] - ends[0];
-  const double share =
-      std::clamp((point_world - ends[0]).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
-  return (ends[0] + share * along - point_world).norm() > tolerance;
+  return distance_to_segment(point_world, {ends[0], ends[1]}) > tolerance;
 }
 
 }  // namespace spf

@@ -47,11 +47,11 @@ struct Watch {
   [[nodiscard]] Eigen::Vector2d truth(std::size_t disc) const {
     return scene.discs[disc].centre + perception.tracks()[0].time * scene.discs[disc].velocity;
   }
-  /// The confirmed track nearest to a place.
-  [[nodiscard]] const ScanTrack* nearest(const Eigen::Vector2d& place) const {
+  /// The confirmed track nearest to a point.
+  [[nodiscard]] const ScanTrack* nearest(const Eigen::Vector2d& point) const {
     const ScanTrack* best = nullptr;
     for (const ScanTrack& track : perception.tracks())
-      if (track.confirmed && (!best || (track.position() - place).norm() < (best->position() - place).norm()))
+      if (track.confirmed && (!best || (track.position() - point).norm() < (best->position() - point).norm()))
         best = &track;
     return best;
   }
@@ -164,10 +164,10 @@ TEST(ScanPerception, FollowsAWideFlatFrontThatComesNearer) {
     if (k < 8) continue;
     // Every return of it belongs to something that is known to move.
     for (const double y : {-1.0, 0.0, 1.0}) {
-      const Eigen::Vector2d place{6.0 - 0.1 * k, y};
+      const Eigen::Vector2d position{6.0 - 0.1 * k, y};
       const bool covered = std::any_of(
           watch.perception.tracks().begin(), watch.perception.tracks().end(), [&](const ScanTrack& track) {
-            return track.dynamic && (track.position() - place).norm() < track.radius + 0.1;
+            return track.dynamic && (track.position() - position).norm() < track.radius + 0.1;
           });
       EXPECT_TRUE(covered) << "sweep " << k << ", y " << y;
     }
@@ -197,7 +197,7 @@ TEST(ScanPerception, KeepsOutOfTheMapWhatHasStoppedAndKnowsItAgain) {
   const ScanTrack* track = watch.nearest(stop);
   ASSERT_NE(track, nullptr);
   const int id = track->id;
-  const SceneDisc mover = watch.scene.discs[0];
+  const SceneDisc disc = watch.scene.discs[0];
   watch.scene.discs[0] = {stop, 0.3};
   watch.look_for(4.0);
   track = watch.nearest(stop);
@@ -205,7 +205,7 @@ TEST(ScanPerception, KeepsOutOfTheMapWhatHasStoppedAndKnowsItAgain) {
   EXPECT_EQ(track->id, id);
   EXPECT_LT(track->velocity().norm(), 0.1);
   EXPECT_GT(watch.map.distance(stop - Eigen::Vector2d{0.3, 0.0}), 0.15);  // its front is not in the map
-  watch.scene.discs[0] = {stop - watch.time * mover.velocity, 0.3, mover.velocity};
+  watch.scene.discs[0] = {stop - watch.time * disc.velocity, 0.3, disc.velocity};
   watch.look_for(1.0);
   track = watch.nearest(watch.truth(0));
   ASSERT_NE(track, nullptr);
@@ -227,14 +227,14 @@ TEST(ScanPerception, LeavesToTheMapWhatHasStoppedWhereOthersTellOfPeople) {
     return detections.size();
   };
   EXPECT_EQ(reported(), 1U);
-  const SceneDisc mover = watch.scene.discs[0];
+  const SceneDisc disc = watch.scene.discs[0];
   watch.scene.discs[0] = {stop, 0.3};
   watch.look_for(2.0);
   EXPECT_EQ(reported(), 1U);
   watch.look_for(3.0);
   EXPECT_EQ(reported(), 0U);
   EXPECT_LT(watch.map.distance(stop - Eigen::Vector2d{0.3, 0.0}), 0.1);
-  watch.scene.discs[0] = {stop - watch.time * mover.velocity, 0.3, mover.velocity};
+  watch.scene.discs[0] = {stop - watch.time * disc.velocity, 0.3, disc.velocity};
   watch.look_for(0.8);
   EXPECT_EQ(reported(), 1U);
 }
@@ -283,9 +283,9 @@ TEST(ScanPerception, SeesStraightWhileItTurnsAndDrives) {
 
 TEST(ScanPerception, LosesNoReturnBetweenMapAndTracks) {
   Watch watch{true};
-  RandomStream place{31};
+  RandomStream random{31};
   for (int k = 0; k < 12; ++k)
-    watch.scene.discs.push_back({3.5 * place.normal2(), place.uniform(0.1, 0.6), 0.7 * place.normal2()});
+    watch.scene.discs.push_back({3.5 * random.normal2(), random.uniform(0.1, 0.6), 0.7 * random.normal2()});
   watch.scene.walls = {{{-7.0, 5.0}, {7.0, 5.0}}};
   for (int k = 0; k < 60; ++k) {
     const OccupancyMap before = watch.map;
@@ -306,11 +306,11 @@ TEST(ScanPerception, LosesNoReturnBetweenMapAndTracks) {
 
 TEST(ScanPerception, AllocatesNothingOnceItHasSeenTheScene) {
   Watch watch;
-  RandomStream place{17};
+  RandomStream random{17};
   for (int k = 0; k < 20; ++k) {
     const double bearing = 0.314 * k;
     watch.scene.discs.push_back({(2.0 + 0.25 * k) * Eigen::Vector2d{std::cos(bearing), std::sin(bearing)},
-                                 0.3, 0.5 * place.normal2()});
+                                 0.3, 0.5 * random.normal2()});
   }
   watch.look_for(2.0);
   std::vector<RangeScan> scans(10);

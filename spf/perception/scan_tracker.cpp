@@ -16,7 +16,7 @@ constexpr double kTentativeTime = 0.35;   // [s] longest time out of sight of a 
 constexpr double kRadiusDrift = 0.02;     // [m/sqrt(s)] process noise of the radius
 constexpr double kSameTime = 0.01;        // [s] parts farther apart in time are not fitted together
 constexpr double kDoubleShare = 0.5;      // [1] of the sum of radii: nearer than this, two tracks are one
-constexpr double kStopTime = 3.0;         // [s] in one place
+constexpr double kStopTime = 3.0;         // [s] at one position
 constexpr double kVacatedSigmas = 5.0;    // [1] of the range noise
 constexpr double kLargestSigma = 1.0;     // [m] a track with a larger position sigma ends
 
@@ -165,10 +165,10 @@ void ScanTracker::judge(const SensorSweep& sweep, ScanTrack& track) {
   const Eigen::Matrix2d spread = track.birth.covariance + track.position_covariance();
   const bool displaced = gone.norm() > parameters_.dynamic_distance && track.evidence.sweeps >= 2.0 &&
                          gone.dot(spread.inverse() * gone) > 11.8;  // three sigma, two degrees
-  // What moves into space seen free is known by that. What moves on into its own shadow leaves all of its
-  // place.
-  const auto left = [&](const Eigen::Vector2d& place) {
-    return vacated(sweep, place, kVacatedSigmas * parameters_.range_sigma);
+  // What moves into space seen free is known by that. What moves on into its own shadow leaves all of
+  // where it was.
+  const auto left = [&](const Eigen::Vector2d& position) {
+    return vacated(sweep, position, kVacatedSigmas * parameters_.range_sigma);
   };
   const auto& before = track.birth.returns_world;
   track.dynamic = track.evidence.free_sweeps >= 1.5 ||
@@ -222,8 +222,8 @@ bool ScanTracker::over(const ScanTrack& track, double time) {
     return true;
   }
   // An uncertain prediction may be off: then more misses are needed.
-  const int patience = parameters_.misses + std::min(static_cast<int>(sigma / 0.1), 5);
-  if (track.evidence.misses >= (track.confirmed ? patience : 2)) {
+  const int most_misses = parameters_.misses + std::min(static_cast<int>(sigma / 0.1), 5);
+  if (track.evidence.misses >= (track.confirmed ? most_misses : 2)) {
     ++stats_.missed;
     return true;
   }

@@ -195,13 +195,13 @@ TEST(Clearance, TreatsObstaclesByTheDynamicModel) {
   track.state.radius = 0.4;
   world.tracks.push_back(track);
   const Eigen::Vector2d now{1.0, -5.0};
-  const auto clearance = [&](DynamicModel dynamic, const Eigen::Vector2d& place, double time) {
+  const auto clearance = [&](DynamicModel dynamic, const Eigen::Vector2d& position, double time) {
     ClearanceModel model = make_model(dynamic);
     model.prepare(world.snapshot(3), 0.0, PeerSelection::all);
     ClearanceWindow instant;
     instant.from = instant.moving_until = time;
     instant.static_until = time - 1.0;
-    return model.check(Trajectory::standing(place, 0.0, 10.0), instant).min_clearance;
+    return model.check(Trajectory::standing(position, 0.0, 10.0), instant).min_clearance;
   };
   EXPECT_GT(clearance(DynamicModel::none, now, 0.0), 1e6);
   EXPECT_NEAR(clearance(DynamicModel::frozen, now, 4.0), -0.7, 1e-12);
@@ -212,9 +212,9 @@ TEST(Clearance, TreatsObstaclesByTheDynamicModel) {
   const Eigen::Vector2d behind = now - Eigen::Vector2d{1.5, 0.0};
   EXPECT_LT(clearance(DynamicModel::probability_field, ahead, 3.0), 0.0);
   EXPECT_GT(clearance(DynamicModel::probability_field, behind, 0.0), 0.0);
-  for (const Eigen::Vector2d& place : {ahead, behind})
-    EXPECT_EQ(clearance(DynamicModel::probability_field, place, 0.0),
-              clearance(DynamicModel::probability_field, place, 3.0));
+  for (const Eigen::Vector2d& position : {ahead, behind})
+    EXPECT_EQ(clearance(DynamicModel::probability_field, position, 0.0),
+              clearance(DynamicModel::probability_field, position, 3.0));
 }
 
 TEST(Limits, SeeSpeedAccelerationAndWheels) {

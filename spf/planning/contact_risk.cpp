@@ -17,8 +17,8 @@ constexpr double kExactPosition = 1e-6;  // [m] standard deviation of what is kn
 
 /// The robot's positions at all steps.
 struct Course {
-  std::array<Eigen::Vector2d, kRiskSteps + 1> place_world;  // [m]
-  double reach = 0.0;                                       // [m] of all of them from the first
+  std::array<Eigen::Vector2d, kRiskSteps + 1> position_world;  // [m]
+  double reach = 0.0;                                          // [m] of all of them from the first
 
   Course(const Trajectory& trajectory, double from) {
     MovingDisc robot;
@@ -26,8 +26,8 @@ struct Course {
     DiscCursor cursor{robot};
     for (std::size_t k = 0; k <= kRiskSteps; ++k) {
       cursor.move_to(from + static_cast<double>(k) * kRiskStep);
-      place_world[k] = cursor.position();
-      reach = std::max(reach, (place_world[k] - place_world[0]).norm());
+      position_world[k] = cursor.position();
+      reach = std::max(reach, (position_world[k] - position_world[0]).norm());
     }
   }
 };
@@ -40,7 +40,7 @@ double largest_overlap(const Course& course, const MovingDisc& disc, double from
   double largest = 0.0;
   for (std::size_t k = 0; k <= kRiskSteps; ++k) {
     other.move_to(from + static_cast<double>(k) * kRiskStep);
-    const double squared = (course.place_world[k] - other.position()).squaredNorm();
+    const double squared = (course.position_world[k] - other.position()).squaredNorm();
     const double deviation = std::max(sigma(k), kExactPosition);
     const double reach = disc.radius + kCertain * deviation;
     if (!(squared < reach * reach)) continue;
@@ -64,7 +64,7 @@ double risk_with(const ObstacleTrack& track, const Course& course, const PlanReq
   };
   // The variance is convex in time, so its largest value is at an end.
   const Eigen::Vector2d now = disc.position_world + age * disc.velocity_world;
-  const double gap = (course.place_world[0] - now).norm();
+  const double gap = (course.position_world[0] - now).norm();
   const double largest_sigma = std::max(sigma(0), sigma(kRiskSteps));
   if (gap > disc.radius + course.reach + kRiskHorizon * disc.velocity_world.norm() + kCertain * largest_sigma)
     return 0.0;

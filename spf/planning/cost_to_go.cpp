@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "spf/math/plane.hpp"
+
 namespace spf {
 namespace {
 
-constexpr double kBesideWay = 0.5;  // [1] of the resolution: no farther, a position is on a straight way
-constexpr int kJustPassed = 4;      // corners at most that are so near that they may lie behind
+constexpr double kBesideLine = 0.5;  // [1] of the resolution: no farther, a position is on a straight line
+constexpr int kJustPassed = 4;       // corners at most that are so near that they may lie behind
 
 }  // namespace
 
@@ -45,7 +47,8 @@ Eigen::Vector2d CostToGo::grid_position(std::int32_t index) const {
 }
 
 Eigen::Vector2d CostToGo::local_position(std::int32_t index) const {
-  if (!wavefront_.place.empty()) return wavefront_.place[static_cast<std::size_t>(index)].cast<double>();
+  if (!wavefront_.position.empty())
+    return wavefront_.position[static_cast<std::size_t>(index)].cast<double>();
   if (index >= window_count()) return bends_[static_cast<std::size_t>(index - window_count())].cast<double>();
   const auto by_node = [](const Moved& moved, std::int32_t wanted) { return moved.node < wanted; };
   const auto moved = std::lower_bound(moved_.begin(), moved_.end(), index, by_node);
@@ -126,8 +129,8 @@ Eigen::Vector2d CostToGo::direction(const Eigen::Vector2d& position_world) const
   return length > 1e-9 ? Eigen::Vector2d{-gradient / length} : Eigen::Vector2d{0.0, 0.0};
 }
 
-/// Whether a corner has just been passed on the way to the parent of a node there. A node that is not at its
-/// place of the grid may lie behind the positions of its cell.
+/// Whether a corner has just been passed on the way to the parent of a node there. A node off its
+/// grid position may lie behind the positions of its cell.
 bool CostToGo::passed(const Eigen::Vector2d& corner, std::int32_t index, const Eigen::Vector2d& local) const {
   if (!narrow() || is_far_field_ || index < 0) return false;
   const Node& node = node_at(index);
@@ -136,11 +139,11 @@ bool CostToGo::passed(const Eigen::Vector2d& corner, std::int32_t index, const E
   const double along = offset.dot(onwards);
   const double far = offset.norm() / window_.resolution;
   if (far < 1.0) return onwards.isZero() || along > 0.0;
-  const double beside = std::fabs(offset.x() * onwards.y() - offset.y() * onwards.x());
-  return far < 2.0 && along > 0.0 && beside < kBesideWay * window_.resolution * onwards.norm();
+  const double beside = std::fabs(cross(offset, onwards));
+  return far < 2.0 && along > 0.0 && beside < kBesideLine * window_.resolution * onwards.norm();
 }
 
-/// The corners of the far field are no nodes of this one, and told apart by their places.
+/// The corners of the far field are no nodes of this one, and told apart by their positions.
 bool CostToGo::same_parent(const Node& a, const Node& b) const {
   return a.parent_node == b.parent_node &&
          (!far_field_ || (a.parent_x == b.parent_x && a.parent_y == b.parent_y));
@@ -191,13 +194,13 @@ void CostToGo::walk(const Eigen::Vector2d& position_world, const Visit& visit) c
   };
   int looked = 0;
   int last_passed = 0;
-  follow([&](const Eigen::Vector2d& place, std::int32_t index) {
+  follow([&](const Eigen::Vector2d& node, std::int32_t index) {
     ++looked;
-    if (passed(place, index, cell.local)) last_passed = looked;
+    if (passed(node, index, cell.local)) last_passed = looked;
     return narrow() && looked < kJustPassed;
   });
   int count = 0;
-  follow([&](const Eigen::Vector2d& place, std::int32_t) { return ++count <= last_passed || visit(place); });
+  follow([&](const Eigen::Vector2d& node, std::int32_t) { return ++count <= last_passed || visit(node); });
 }
 
 Eigen::Vector2d CostToGo::descend(const Eigen::Vector2d& position_world, double distance) const {

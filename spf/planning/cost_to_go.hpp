@@ -1,10 +1,9 @@
 // Cost-to-go [m]: the length of the shortest path around static obstacles to the goal, from any position. A
 // wavefront from the goal assigns to every node of a coarse grid its parent: the next corner on the path to
 // the goal, which is in line of sight (lazy Theta*, any-angle). The cost at a position is the distance to a
-// parent plus the parent's cost: an exact length, not a sum of grid steps. Where clearances may be less than
-// wanted, narrow ground costs more: nodes move to the roomiest place of their cell, and two neighbours that
-// do not see each other are joined by a way that bends through the middle of the gap between them. Frame:
-// world.
+// parent plus the parent's cost: an exact length, not a sum of grid steps. Where narrow passages may be taken
+// they cost more: there a node moves to the position of largest clearance in its cell, and two neighbours
+// without line of sight are joined by a path through the middle of the gap between them. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +21,8 @@
 
 namespace spf {
 
-/// [1] A metre of narrow ground costs up to so many more: the robot creeps there. What may turn out to be too
-/// narrow costs more than that.
+/// [1] Surcharge of narrow ground, per metre, at most: the robot creeps there. A gap that may turn out to be
+/// too narrow costs more than that.
 inline constexpr double kNarrowCost = 3.0;
 
 enum class CostToGoOutcome {
@@ -36,35 +35,34 @@ enum class CostToGoOutcome {
 
 class CostToGo {
  public:
-  /// For a robot of this radius [m]; without one for a point. Throws std::invalid_argument on parameters out
-  /// of range.
-  /// Narrow passages are taken, at a price (kNarrowCost), where they leave `least_margin` [m] beyond the
-  /// radius; without one, what is narrower than the clearance is blocked, and passages narrower than twice
-  /// that + the resolution may be missed.
+  /// For a robot of this radius [m] (0: a point). Throws std::invalid_argument on parameters out of range.
+  /// With a finite `least_margin` [m] narrow passages are taken, at a price (kNarrowCost), where they leave
+  /// that margin beyond the radius. By default ground with less than the clearance is blocked, and passages
+  /// narrower than twice the clearance + the resolution may be missed.
   explicit CostToGo(const CostToGoParameters& parameters, double robot_radius = 0.0,
                     double least_margin = std::numeric_limits<double>::infinity());
 
-  /// Without a cost-to-go, for the same robot.
+  /// An empty one (not ready()) for the same robot and parameters.
   [[nodiscard]] CostToGo anew() const;
 
-  /// What stands in the way from the next update() on: a way through it costs the time that it will stay, at
-  /// `speed` [m/s]. Without narrow passages (see the constructor) it is not looked at.
+  /// Standing obstacles, from the next update() on: a path through one costs the time that it is expected to
+  /// stay, times `speed` [m/s]. Ignored without narrow passages (see the constructor).
   void set_standing(const std::vector<StandingDisc>& discs, double speed);
   [[nodiscard]] const std::vector<StandingDisc>& standing() const { return standing_; }
 
   /// Propagates from the goal far enough for a robot at `robot_world`. The wavefront's working memory (some
-  /// 30 bytes a node) is kept from run to run when the map is being sensed, since the next update comes soon,
-  /// and freed when all of the map is known; what remains is 2 bytes a node and 16 for every distinct parent.
+  /// 30 bytes a node) is kept between updates while the map is being sensed, since the next one comes soon,
+  /// and freed when the whole map is known; what remains is 2 bytes a node and 16 for every distinct parent.
   CostToGoOutcome update(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
                          const Eigen::Vector2d& robot_world);
-  /// update() in slices: begins, and is done when advance() says so. Until then there is no cost-to-go.
+  /// update() in slices: call begin(), then advance() until it returns true. Until then not ready().
   void begin(const OccupancyMap& map, const Eigen::Vector2d& goal_world, const Eigen::Vector2d& robot_world);
-  /// begin() and update() go on with the far field of the run before, as long as its way is free on the map,
-  /// and compute but a new near field; after this call with the far field of another guide to the same goal.
+  /// begin() and update() reuse the previous far field while its path is free on the map, and then compute
+  /// only a new near field. After this call they reuse that of another cost-to-go to the same goal.
   void share_far_field(const CostToGo& other);
   /// Does about this much work, in units of some 20 ns on a processor of 2020: counted, not timed, so that
-  /// the same run gives the same slices. The map may have changed since the last slice; what changed behind
-  /// the wavefront is not seen before the next update. True when done.
+  /// slices are reproducible. The map may change between slices; changes behind the wavefront take effect
+  /// with the next update. True when done.
   bool advance(const OccupancyMap& map, std::int64_t work);
   [[nodiscard]] bool under_way() const { return progress_.stage != Stage::done; }
   /// Whether the robot needs another near field soon.
@@ -73,7 +71,7 @@ class CostToGo {
   [[nodiscard]] bool beyond_near_field(const Eigen::Vector2d& robot_world) const {
     return beyond(robot_world) != nullptr;
   }
-  /// Whether the update under way is a search for a way everywhere, which may take minutes.
+  /// Whether the running update searches the whole map for a path, which may take minutes.
   [[nodiscard]] bool looks_everywhere() const { return progress_.fine; }
   /// Number of nodes.
   [[nodiscard]] std::int64_t size() const { return window_count(); }
@@ -100,8 +98,8 @@ class CostToGo {
   /// first corner beyond the near field.
   void shortest_path(const Eigen::Vector2d& position_world,
                      std::vector<Eigen::Vector2d>& corners_world) const;
-  /// Whether the straight way between two positions keeps the clearance that paths must keep, but for half a
-  /// cell of the map (in narrow passages all of the least clearance), since they graze their corners.
+  /// Whether the straight line between two positions keeps the clearance of paths, less half a cell of the
+  /// map since paths graze corners; where narrow passages are taken, all of the least clearance.
   [[nodiscard]] bool passable(const OccupancyMap& map, const Eigen::Vector2d& from_world,
                               const Eigen::Vector2d& to_world) const;
   /// Whether a path leads from this position to the goal.
@@ -124,7 +122,7 @@ class CostToGo {
     std::int32_t parent_node;  // the node that is the parent, kGoal or kUnseen; on blocked ground see
                                // nearest_reached_of
   };
-  /// A node that is not at its place of the grid.
+  /// A node that was moved off its grid position.
   struct Moved {
     std::int32_t node;
     std::int16_t x, y;  // offset in units of kMovedUnit * resolution
@@ -137,10 +135,10 @@ class CostToGo {
   struct Wavefront {
     std::vector<Node> nodes;  // of the window, then those at bends
     std::vector<std::uint8_t> state;
-    std::vector<std::uint8_t> dear;      // 1: near a surface or something that stands, where a way costs more
-    std::vector<Eigen::Vector2f> place;  // [m] of each node, where narrow passages are taken; else empty
-    std::vector<float> surcharge;       // [m] of the way to the parent, which the node's parent_cost contains
-    std::vector<Eigen::Vector2d> bend;  // [m] of a way between two neighbours
+    std::vector<std::uint8_t> costly;       // 1: near a surface or a standing obstacle, where paths cost more
+    std::vector<Eigen::Vector2f> position;  // [m] of each node, where narrow passages are taken; else empty
+    std::vector<float> surcharge;           // [m] of the path to the parent, contained in parent_cost
+    std::vector<Eigen::Vector2d> bend;      // [m] of a path between two neighbours
     std::vector<Entry> heap;
     std::vector<std::int32_t> nearest_reached;
     std::vector<std::int32_t> queue;
@@ -155,12 +153,12 @@ class CostToGo {
     find_nearest,  // ... the nearest of them to every other node ...
     extend,        // ... which gets its parent
     keep_parents,
-    keep_places,
+    keep_positions,
     done,
   };
   struct Progress {
     Stage stage = Stage::done;
-    std::int32_t next = 0;                  // node of the stage, or place in the queue
+    std::int32_t next = 0;                  // node of the stage, or index into the queue
     bool everywhere = false;                // the window is the whole map
     bool fine = false;                      // however far the goal is
     Eigen::Vector2d robot_world{0.0, 0.0};  // [m]
@@ -206,7 +204,7 @@ class CostToGo {
   [[nodiscard]] bool far_field_holds(const OccupancyMap& map) const;
   void coarsen(const OccupancyMap& map, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
   [[nodiscard]] bool same_parent(const Node& a, const Node& b) const;
-  [[nodiscard]] std::int32_t edge_node(std::int32_t place) const;
+  [[nodiscard]] std::int32_t edge_node(std::int32_t along) const;
   void seed_from_far_field(const OccupancyMap& map, std::int32_t index);
   [[nodiscard]] bool neighbours_see_each_other() const { return !narrow() && !is_far_field_; }
   void enter(Stage stage);
@@ -246,7 +244,7 @@ class CostToGo {
   bool find_nearest();
   void extend(std::int32_t index);
   bool keep_parents();
-  void keep_place(std::int32_t index);
+  void keep_position(std::int32_t index);
   void free_memory(const OccupancyMap& map);
   [[nodiscard]] std::optional<std::uint16_t> kept_beside(std::int32_t index) const;
   [[nodiscard]] std::optional<Eigen::Vector2d> nearest_free_position(const OccupancyMap& map,
@@ -265,17 +263,17 @@ class CostToGo {
   bool whole_map_ = false;
   GridFrame window_;
   std::vector<StandingDisc> standing_;
-  double standing_speed_ = 0.0;         // [m/s] at which waiting is turned into a way
+  double standing_speed_ = 0.0;         // [m/s] turns waiting time into path length
   std::vector<Moved> moved_;            // by node
-  std::vector<Eigen::Vector2f> bends_;  // [m] nodes that are at no place of the grid, behind the window's
+  std::vector<Eigen::Vector2f> bends_;  // [m] nodes off the grid, numbered after the window's
   // The wavefront's result. Neighbours mostly share a parent, so each is stored once.
   std::vector<Node> parents_;
   std::vector<std::uint16_t>
       parent_of_;  // by node, an index into parents_; empty: parents_ is by node itself
   Wavefront wavefront_;
   Progress progress_;
-  // Where the goal is far there are two fields: this one around the robot, and a coarse one over all of the
-  // way, from which it starts at its window's edge.
+  // Where the goal is far there are two fields: this one around the robot, and a coarse one over the whole
+  // path, whose costs seed this one at its window's edge.
   std::shared_ptr<CostToGo> far_field_;  // null: none; shared by the fields of one robot once it is done
   bool is_far_field_ = false;
   mutable std::int64_t work_ = 0;  // done in this slice

@@ -1,4 +1,4 @@
-// The guide of a goal that is far: a coarse field over all of the way, and a fine one around the robot that
+// The guide of a goal that is far: a coarse field over the whole path, and a fine one around the robot that
 // starts from it.
 #include <algorithm>
 #include <array>
@@ -49,21 +49,21 @@ void CostToGo::share_far_field(const CostToGo& other) {
 }
 
 /// Whether the far field at hand, if any, still holds: for this goal, for a robot there, and on this map, on
-/// which its way must be free beyond the near field.
+/// which its path must be free beyond the near field.
 bool CostToGo::far_field_holds(const OccupancyMap& map) const {
   if (!far_field_ || !far_field_->ready() || far_field_->goal_asked_ != goal_used_ ||
       !far_field_->window_covers(progress_.robot_world))
     return false;
   if (map.revision() == far_field_->map_revision_) return true;
   if (map.revision() > far_field_->map_revision_ + kMostRevisions) return false;
-  std::vector<Eigen::Vector2d> way;
-  far_field_->shortest_path(progress_.robot_world, way);
-  if (way.size() < 2) return true;
-  const double first = (way[1] - way[0]).norm();
+  std::vector<Eigen::Vector2d> path;
+  far_field_->shortest_path(progress_.robot_world, path);
+  if (path.size() < 2) return true;
+  const double first = (path[1] - path[0]).norm();
   const double near = std::min(0.5 * kNearSide * spacing_on(map), first);
-  if (first > 0.0) way[0] += near / first * (way[1] - way[0]);
-  for (std::size_t i = 1; i < way.size(); ++i)
-    if (!far_field_->passable(map, way[i - 1], way[i])) return false;
+  if (first > 0.0) path[0] += near / first * (path[1] - path[0]);
+  for (std::size_t i = 1; i < path.size(); ++i)
+    if (!far_field_->passable(map, path[i - 1], path[i])) return false;
   return true;
 }
 
@@ -88,10 +88,10 @@ bool CostToGo::advance_far_field(const OccupancyMap& map) {
 }
 
 /// The nodes at the window's edge, counted round it.
-std::int32_t CostToGo::edge_node(std::int32_t place) const {
+std::int32_t CostToGo::edge_node(std::int32_t along) const {
   const std::int32_t width = window_.width;
-  if (place < 2 * width) return window_.index(place % width, place < width ? 0 : window_.height - 1);
-  const std::int32_t beside = place - 2 * width;
+  if (along < 2 * width) return window_.index(along % width, along < width ? 0 : window_.height - 1);
+  const std::int32_t beside = along - 2 * width;
   return window_.index(beside % 2 == 0 ? 0 : width - 1, 1 + beside / 2);
 }
 

@@ -16,7 +16,7 @@ OccupancyMap large_map() {
   return OccupancyMap{GridFrame::covering({-150.0, -150.0}, {150.0, 150.0}, 0.2), 2.0};
 }
 
-/// Drives along the guide, which is brought up to date where it has to be; the length of the way.
+/// Drives along the guide, which is brought up to date where it has to be; the length of the path.
 double drive(CostToGo& guide, const OccupancyMap& map, Eigen::Vector2d here, const Eigen::Vector2d& goal,
              double* least_room) {
   constexpr double kStep = 0.25;
@@ -97,7 +97,7 @@ TEST(CostToGoFar, AFarFieldWhoseWayIsBlockedMeanwhileIsComputedAnew) {
   EXPECT_EQ(guide.update(map, goal, start), CostToGoOutcome::unreachable);
 }
 
-/// The goal is near, but the way to it leaves the box around both.
+/// The goal is near, but the path to it leaves the box around both.
 TEST(CostToGoFar, KeepsTheFarFieldOfAWayThatLeavesTheBoxOfRobotAndGoal) {
   OccupancyMap map = large_map();
   map.add_box({-0.2, -100.0}, {0.2, 100.0});
@@ -126,7 +126,7 @@ TEST(CostToGoFar, ANearFieldAloneIsAnewWhereTheRobotHasMovedOn) {
   whole.begin(map, goal, {-100.0, 0.0});
   EXPECT_FALSE(whole.advance(map, 60 * 15'000));
   EXPECT_NEAR(next.cost_to_go({-100.0, 0.0}), 220.0, 1e-3);
-  // A position beyond the near field still has a way.
+  // A position beyond the near field still has a path.
   EXPECT_NEAR(next.cost_to_go({-60.0, 5.0}), std::hypot(180.0, 5.0), 1e-3);
   EXPECT_GT(next.direction({-60.0, 5.0}).x(), 0.9);
 }

@@ -80,14 +80,14 @@ bool CostToGo::keep_parents() {
   });
 }
 
-void CostToGo::keep_place(std::int32_t index) {
-  const Eigen::Vector2f& place = wavefront_.place[static_cast<std::size_t>(index)];
+void CostToGo::keep_position(std::int32_t index) {
+  const Eigen::Vector2f& position = wavefront_.position[static_cast<std::size_t>(index)];
   if (index >= window_count()) {
-    bends_.push_back(place);
+    bends_.push_back(position);
     return;
   }
   const double unit = kMovedUnit * window_.resolution;
-  const Eigen::Vector2d offset = (place.cast<double>() - grid_position(index)) / unit;
+  const Eigen::Vector2d offset = (position.cast<double>() - grid_position(index)) / unit;
   const auto x = static_cast<std::int16_t>(std::lround(offset.x()));
   const auto y = static_cast<std::int16_t>(std::lround(offset.y()));
   if (x != 0 || y != 0) moved_.push_back({index, x, y});

@@ -1,8 +1,9 @@
-// What CostToGo knows of clearances: lines of sight, and ways through narrow gaps.
+// What CostToGo knows of clearances: lines of sight, and paths through narrow gaps.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "spf/math/segment.hpp"
 #include "spf/planning/cost_to_go.hpp"
 
 namespace spf {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kSightSlack = 0.25;
 constexpr double kRounding = 1e-9;
 /// [1] of the room between least and wanted: what has no more than this beyond the least may turn out to be
-/// too narrow, so a metre of it costs many: another way is taken as long as there is one.
+/// too narrow, so a metre of it costs many: another path is taken as long as there is one.
 constexpr double kTightShare = 0.33;
 constexpr double kTightCost = 20.0;
 /// [1] Room gained per metre by a move that counts: across a passage it is about 1, along it little. Nodes
@@ -22,7 +23,7 @@ constexpr double kAcross = 0.5;
 constexpr double kNextToNothing = 0.02;     // [m]
 constexpr std::int64_t kLookWork = 2;       // of distance()
 constexpr std::int64_t kExactLookWork = 6;  // of exact_distance()
-constexpr int kBendRounds = 3;              // a way between neighbours bends 7 times at most
+constexpr int kBendRounds = 3;              // a path between neighbours bends 7 times at most
 
 /// [1] Of a metre where there is so much room [m], beyond its length.
 double narrow_price(double room, double least, double wanted) {
@@ -33,7 +34,7 @@ double narrow_price(double room, double least, double wanted) {
 
 }  // namespace
 
-/// What the straight way between two positions costs beyond its length [m]; none = it is blocked.
+/// What the straight line between two positions costs beyond its length [m]; none = it is blocked.
 std::optional<double> CostToGo::view(const OccupancyMap& map, const Eigen::Vector2d& from,
                                      const Eigen::Vector2d& to) const {
   if (narrow()) return narrow_view(map, from, to);
@@ -54,7 +55,7 @@ std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen
   const Eigen::Vector2d start = window_.origin_world + from;
   const Eigen::Vector2d direction =
       length > 0.0 ? Eigen::Vector2d{(to - from) / length} : Eigen::Vector2d{0, 0};
-  // By the trapezoid rule: were each step priced at its beginning, ways would gain by where they begin.
+  // By the trapezoid rule: were each step priced at its beginning, paths would gain by where they begin.
   double cost = 0.0;
   double step = 0.0;
   double price_before = 0.0;
@@ -87,17 +88,16 @@ bool CostToGo::standing_near(const Eigen::Vector2d& position_world) const {
   });
 }
 
-/// What a straight way costs [m] for what stands on it: all of the wait, wherever it enters, since beside the
-/// middle is no better; nothing on the way out, which does not lead deeper into it, so that what stands near
-/// a goal does not make the ground around dear.
+/// What a straight line costs [m] for what stands on it: all of the wait, wherever it enters, since beside
+/// the middle is no better; nothing on the way out, which does not lead deeper into it, so that what stands
+/// near a goal does not make the ground around it costly.
 double CostToGo::standing_cost(const Eigen::Vector2d& from_world, const Eigen::Vector2d& to_world) const {
   double cost = 0.0;
-  const Eigen::Vector2d along = to_world - from_world;
   for (const StandingDisc& disc : standing_) {
-    const Eigen::Vector2d offset = disc.position_world - from_world;
-    const double reach = std::min(least_clearance_ + disc.radius, (1.0 - kRounding) * offset.norm());
-    const double part = std::clamp(offset.dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
-    if ((offset - part * along).squaredNorm() < reach * reach) cost += standing_speed_ * disc.wait;
+    const double outset = (disc.position_world - from_world).norm();
+    const double reach = std::min(least_clearance_ + disc.radius, (1.0 - kRounding) * outset);
+    if (distance_to_segment(disc.position_world, {from_world, to_world}) < reach)
+      cost += standing_speed_ * disc.wait;
   }
   return cost;
 }
@@ -109,8 +109,8 @@ bool CostToGo::passable(const OccupancyMap& map, const Eigen::Vector2d& from_wor
   return map.segment_clear(from_world, to_world, clearance_ - 0.5 * map.frame().resolution);
 }
 
-/// The place within half a cell of a node that is roomiest, or the first that keeps the wanted clearance; and
-/// how much room is there [m].
+/// The position within half a cell of a node with the largest clearance, or the first that keeps the wanted
+/// one; and how much room is there [m].
 Eigen::Vector2d CostToGo::roomiest(const OccupancyMap& map, const Eigen::Vector2d& node_world,
                                    double& room) const {
   const double reach = 0.5 * window_.resolution;
@@ -136,7 +136,7 @@ Eigen::Vector2d CostToGo::roomiest(const OccupancyMap& map, const Eigen::Vector2
   return best;
 }
 
-/// Where the straight way between two positions is narrowest, moved aside to the middle of the gap there;
+/// Where the straight line between two positions is narrowest, moved aside to the middle of the gap there;
 /// none when the gap is too narrow.
 std::optional<Eigen::Vector2d> CostToGo::middle_of_gap(const OccupancyMap& map, const Eigen::Vector2d& from,
                                                        const Eigen::Vector2d& to) const {
@@ -176,20 +176,20 @@ std::optional<Eigen::Vector2d> CostToGo::middle_of_gap(const OccupancyMap& map, 
   return best;
 }
 
-/// Finds a way between two neighbours that do not see each other; its bends from `from` on are left in the
+/// Finds a path between two neighbours that do not see each other; its bends from `from` on are left in the
 /// wavefront.
 bool CostToGo::bend_between(const OccupancyMap& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  std::vector<Eigen::Vector2d>& way = wavefront_.bend;
-  way.assign({from, to});
+  std::vector<Eigen::Vector2d>& path = wavefront_.bend;
+  path.assign({from, to});
   for (int round = 0; round <= kBendRounds; ++round) {
     bool clear = true;
-    for (std::size_t leg = 0; leg + 1 < way.size(); ++leg) {
-      if (narrow_view(map, way[leg], way[leg + 1])) continue;
+    for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
+      if (narrow_view(map, path[leg], path[leg + 1])) continue;
       if (round == kBendRounds) return false;
       clear = false;
-      const std::optional<Eigen::Vector2d> bend = middle_of_gap(map, way[leg], way[leg + 1]);
+      const std::optional<Eigen::Vector2d> bend = middle_of_gap(map, path[leg], path[leg + 1]);
       if (!bend) return false;
-      way.insert(way.begin() + static_cast<std::ptrdiff_t>(leg) + 1, *bend);
+      path.insert(path.begin() + static_cast<std::ptrdiff_t>(leg) + 1, *bend);
       ++leg;
     }
     if (clear) return true;
@@ -197,24 +197,24 @@ bool CostToGo::bend_between(const OccupancyMap& map, const Eigen::Vector2d& from
   return false;
 }
 
-/// The first bend of the way that bend_between() has found, which leads to a settled node, as a parent. The
+/// The first bend of the path that bend_between() has found, which leads to a settled node, as a parent. The
 /// others become nodes of their own, each the parent of the one before.
 CostToGo::Node CostToGo::parent_around_bend(const OccupancyMap& map, std::int32_t index) {
-  const std::vector<Eigen::Vector2d>& way = wavefront_.bend;
+  const std::vector<Eigen::Vector2d>& path = wavefront_.bend;
   std::int32_t parent_node = index;
   double cost = static_cast<double>(own_cost(wavefront_.nodes[static_cast<std::size_t>(index)], index));
-  for (std::size_t k = way.size() - 2; k >= 1; --k) {
-    const Eigen::Vector2d& parent = way[k + 1];
-    const double extra = narrow_view(map, way[k], parent).value_or(0.0);
+  for (std::size_t k = path.size() - 2; k >= 1; --k) {
+    const Eigen::Vector2d& parent = path[k + 1];
+    const double extra = narrow_view(map, path[k], parent).value_or(0.0);
     const auto base = static_cast<float>(cost + extra);
     wavefront_.nodes.push_back(
         {static_cast<float>(parent.x()), static_cast<float>(parent.y()), base, parent_node});
     wavefront_.surcharge.push_back(static_cast<float>(extra));
-    wavefront_.place.push_back(way[k].cast<float>());
+    wavefront_.position.push_back(path[k].cast<float>());
     parent_node = static_cast<std::int32_t>(wavefront_.nodes.size()) - 1;
-    cost += (way[k] - parent).norm() + extra;
+    cost += (path[k] - parent).norm() + extra;
   }
-  return {static_cast<float>(way[1].x()), static_cast<float>(way[1].y()), static_cast<float>(cost),
+  return {static_cast<float>(path[1].x()), static_cast<float>(path[1].y()), static_cast<float>(cost),
           parent_node};
 }
 

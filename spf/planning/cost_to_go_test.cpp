@@ -315,7 +315,7 @@ TEST(CostToGo, GoesRoundNarrowGroundWhereThatIsLittleLonger) {
 }
 
 /// Length of the path that a guide leads around, or through, a disc that stands for `wait` on the straight
-/// way.
+/// line.
 double path_past(double wait, const std::vector<Box>& boxes) {
   const OccupancyMap map = map_with(boxes);
   CostToGo guide = guide_for_narrow_gaps();
@@ -334,7 +334,7 @@ TEST(CostToGo, GoesRoundWhatStandsWhereThatIsShorterThanToWait) {
   const std::vector<Box> lane{{{-3.0, 0.5}, {3.0, 4.0}}, {{-3.0, -9.0}, {3.0, -0.5}}};
   EXPECT_NEAR(path_past(1.0, lane), 10.0, 0.2);
   EXPECT_GT(path_past(20.0, lane), 13.0);
-  // No other way: through it, that is, to it, and there the robot waits.
+  // No other path: through it, that is, to it, and there the robot waits.
   const std::vector<Box> only{{{-3.0, 0.5}, {3.0, 9.0}}, {{-3.0, -9.0}, {3.0, -0.5}}};
   EXPECT_NEAR(path_past(20.0, only), 10.0, 0.2);
 }
@@ -345,7 +345,7 @@ TEST(CostToGo, GoesRoundWhatStandsFromBesideItToo) {
   const Eigen::Vector2d disc{0.0, 0.1};
   guide.set_standing({{disc, 0.3, 60.0}}, 1.0);
   ASSERT_EQ(guide.update(map, {-5.0, 0.0}, {5.0, 0.0}), CostToGoOutcome::reachable);
-  // From places that nearly touch it, and some nearer than the margin.
+  // From positions that nearly touch it, and some nearer than the margin.
   for (double x = 0.45; x < 0.8; x += 0.05) {
     for (double y = -0.3; y <= 0.3; y += 0.1) {
       const Eigen::Vector2d start{x, y};
@@ -355,8 +355,8 @@ TEST(CostToGo, GoesRoundWhatStandsFromBesideItToo) {
       guide.shortest_path(start, corners);
       for (std::size_t leg = 1; leg < corners.size(); ++leg)
         for (int k = 0; k <= 20; ++k) {
-          const Eigen::Vector2d place = corners[leg - 1] + 0.05 * k * (corners[leg] - corners[leg - 1]);
-          EXPECT_GT((place - disc).norm(), std::min(gap, 0.6) - 0.1) << x << " " << y;
+          const Eigen::Vector2d position = corners[leg - 1] + 0.05 * k * (corners[leg] - corners[leg - 1]);
+          EXPECT_GT((position - disc).norm(), std::min(gap, 0.6) - 0.1) << x << " " << y;
         }
     }
   }

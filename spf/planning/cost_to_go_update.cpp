@@ -32,7 +32,7 @@ void CostToGo::begin(const OccupancyMap& map, const Eigen::Vector2d& goal_world,
   goal_used_ = *goal;
   progress_.robot_world = robot_world;
   if (!far_field_holds(map)) far_field_.reset();
-  // A way that was found beyond the box around robot and goal is not looked for in the box again.
+  // A path that was found beyond the box around robot and goal is not looked for in the box again.
   progress_.everywhere = far_field_ && far_field_->whole_map_;
   open_window(map);
 }
@@ -62,7 +62,7 @@ bool CostToGo::run_stage(const OccupancyMap& map) {
       return true;
     case Stage::seed:
       if (!for_nodes(2 * (window_.width + window_.height - 2),
-                     [&](std::int32_t place) { seed_from_far_field(map, edge_node(place)); }))
+                     [&](std::int32_t along) { seed_from_far_field(map, edge_node(along)); }))
         return false;
       enter(Stage::propagate);
       return true;
@@ -84,11 +84,11 @@ bool CostToGo::run_stage(const OccupancyMap& map) {
       return true;
     case Stage::keep_parents:
       if (!keep_parents()) return false;
-      enter(Stage::keep_places);
+      enter(Stage::keep_positions);
       return true;
-    case Stage::keep_places:
-      if (!map.sensed() && !for_nodes(static_cast<std::int32_t>(wavefront_.place.size()),
-                                      [&](std::int32_t index) { keep_place(index); }))
+    case Stage::keep_positions:
+      if (!map.sensed() && !for_nodes(static_cast<std::int32_t>(wavefront_.position.size()),
+                                      [&](std::int32_t index) { keep_position(index); }))
         return false;
       free_memory(map);
       enter(Stage::done);
@@ -122,8 +122,8 @@ void CostToGo::clear_nodes() {
   wavefront_.state.resize(count);
   wavefront_.surcharge.assign(count, 0.0F);
   wavefront_.nodes.assign(count, {0.0F, 0.0F, std::numeric_limits<float>::infinity(), kUnseen});
-  wavefront_.place.resize(narrow() ? count : 0);
-  wavefront_.dear.assign(narrow() ? count : 0, 0);
+  wavefront_.position.resize(narrow() ? count : 0);
+  wavefront_.costly.assign(narrow() ? count : 0, 0);
   wavefront_.heap.clear();
   enter(Stage::mark_free_nodes);
 }

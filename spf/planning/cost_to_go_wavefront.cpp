@@ -54,9 +54,9 @@ void CostToGo::mark_free_node(const OccupancyMap& map, std::int32_t index) {
   double room = map.distance(position);
   work_ += kNodeWork;
   if (narrow()) {
-    wavefront_.dear[node] = room < clearance_ || standing_near(position);
+    wavefront_.costly[node] = room < clearance_ || standing_near(position);
     if (room < clearance_) position = roomiest(map, position, room);
-    wavefront_.place[node] = (position - window_.origin_world).cast<float>();
+    wavefront_.position[node] = (position - window_.origin_world).cast<float>();
   }
   wavefront_.state[node] = room >= least_clearance_ ? unseen : blocked;
 }
@@ -97,7 +97,7 @@ bool CostToGo::propagate(const OccupancyMap& map) {
 // be missed.) Saves most line-of-sight checks. Where the first step may cost more than its length the line
 // has to be looked at all the same.
 bool CostToGo::between_viewers(const OccupancyMap& map, std::int32_t index) const {
-  if (narrow() && wavefront_.dear[static_cast<std::size_t>(index)] != 0) return false;
+  if (narrow() && wavefront_.costly[static_cast<std::size_t>(index)] != 0) return false;
   const Node& node = wavefront_.nodes[static_cast<std::size_t>(index)];
   const Eigen::Vector2d to_parent = Eigen::Vector2d{node.parent_x, node.parent_y} - local_position(index);
   const double x = std::fabs(to_parent.x());
@@ -156,14 +156,14 @@ void CostToGo::offer(std::int32_t index, const Node& parent) {
   push(index);
 }
 
-/// The parent of a node as it is offered to others: without what the way there costs this node.
+/// The parent of a node as it is offered to others: without what the path there costs this node.
 CostToGo::Node CostToGo::parent_of(std::int32_t index) const {
   Node parent = wavefront_.nodes[static_cast<std::size_t>(index)];
   parent.parent_cost -= wavefront_.surcharge[static_cast<std::size_t>(index)];
   return parent;
 }
 
-/// `extra` [m]: what the way to the present parent costs beyond its length; none = it is not in view.
+/// `extra` [m]: what the path to the present parent costs beyond its length; none = it is not in view.
 void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index, std::optional<double> extra) {
   const Eigen::Vector2d here = local_position(index);
   const Node failed = parent_of(index);
@@ -195,13 +195,13 @@ void CostToGo::find_parent_in_view(const OccupancyMap& map, std::int32_t index, 
       try_parent(parent_around_bend(map, next));
     // The corner itself lies between nodes, this one and the last in view, at the clearance.
     for (const Eigen::Vector2d& near : {next_position, Eigen::Vector2d{0.5 * (next_position + here)}}) {
-      const Eigen::Vector2d place = at_clearance(map, near);
-      Node corner = parent_at(next, place);
+      const Eigen::Vector2d position = at_clearance(map, near);
+      Node corner = parent_at(next, position);
       if (cost_at(corner, here) >= lowest) continue;
       const Node of_next = parent_of(next);
-      const std::optional<double> beyond = view(map, place, {of_next.parent_x, of_next.parent_y});
+      const std::optional<double> beyond = view(map, position, {of_next.parent_x, of_next.parent_y});
       if (!beyond) continue;
-      corner.parent_cost = static_cast<float>(cost_at(of_next, place) + *beyond);
+      corner.parent_cost = static_cast<float>(cost_at(of_next, position) + *beyond);
       try_parent(corner);
     }
   });

@@ -36,10 +36,10 @@ enum class PlanAction {
   brake,   ///< it is new and brakes (or steps aside), since there is no plan to follow
 };
 
-/// The robot has to let others pass: to go on beyond where `cost_to_go` [m] is left gains it nothing.
+/// The robot has to stop where its cost-to-go is `cost_to_go`, and let a peer pass.
 struct GiveWay {
-  double cost_to_go = 0.0;
-  int peer = -1;  ///< robot number
+  double cost_to_go = 0.0;  ///< [m]
+  int peer = -1;            ///< robot number of the peer to let pass
 };
 
 struct PlanRequest {
@@ -72,9 +72,7 @@ struct PlanStats {
   int optimiser_calls = 0;   ///< L-BFGS runs (the paper's "iterations")
   int inner_iterations = 0;  ///< L-BFGS iterations in all runs
   int evaluations = 0;       ///< cost evaluations in all runs
-  int searches = 0;          ///< grid searches
   int primitives = 0;        ///< rolled-out candidates
-  int side_changes = 0;      ///< in the last seconds, the largest over all obstacles
 };
 
 struct PlanResult {

@@ -35,7 +35,7 @@ class OmniKinematics {
   [[nodiscard]] Eigen::Vector3d wheel_speeds(const Eigen::Vector2d& velocity_body, double yaw_rate) const;
   [[nodiscard]] Eigen::Vector3d wheel_speeds_from_world(const Eigen::Vector3d& twist_world,
                                                         double heading) const;
-  /// The motion that rim speeds [m/s] cause, without slip.
+  /// The motion that rim speeds [m/s] cause, without wheel slip.
   [[nodiscard]] Eigen::Vector3d twist_body(const Eigen::Vector3d& wheel_speeds) const;
   [[nodiscard]] Eigen::Vector3d twist_world(const Eigen::Vector3d& wheel_speeds, double heading) const;
 

@@ -76,8 +76,8 @@ struct AgentParameters {
 /// where to start; what is set afterwards counts as it is written.
 [[nodiscard]] AgentParameters defaults_for(const RobotParameters& robot);
 
-/// For a robot that is not to drive faster than `max_speed` [m/s] for a while. What the paper's planner looks
-/// ahead along its way becomes shorter with it, so that the time stays the same.
+/// The parameters with a temporary speed limit of `max_speed` [m/s]. The lookahead distances of the paper's
+/// planner shrink in proportion, so that its planning time horizon stays the same.
 [[nodiscard]] AgentParameters slowed_to(AgentParameters agent, double max_speed);
 
 }  // namespace spf

@@ -33,7 +33,7 @@ class Announcement {
 
   /// The message that is due at a time [s]: after every new trajectory or state, and again before the last
   /// one is message_period old. `next_time` [s] is when this is asked again, `position_sigma` [m] how far the
-  /// robot may be from its trajectory; `claim` to a narrow place, whose changes are told at once, too.
+  /// robot may be from its trajectory; `claim` to a narrow passage, whose changes are told at once, too.
   [[nodiscard]] std::optional<TrajectoryMessage> message(double time, double next_time,
                                                          const Trajectory& committed, double position_sigma,
                                                          const std::optional<PassageClaim>& claim = {});

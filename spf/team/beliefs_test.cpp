@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "spf/math/plane.hpp"
 #include "spf/team/ideal_host_test.hpp"
 #include "spf/team/schedule.hpp"
 
@@ -127,7 +128,7 @@ class ScansAlone : public ::testing::Test {
       const double angle = scan.angle_min + beam * scan.angle_increment;
       const Eigen::Vector2d direction{std::cos(angle), std::sin(angle)};
       const double along = disc.dot(direction);
-      const double beside = disc.x() * direction.y() - disc.y() * direction.x();
+      const double beside = cross(disc, direction);
       const bool hit = along > 0.0 && std::abs(beside) < radius;
       scan.ranges.push_back(hit ? along - std::sqrt(radius * radius - beside * beside) : 1e9);
     }

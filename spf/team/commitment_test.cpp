@@ -29,7 +29,7 @@ PlanResult follow(const Trajectory& trajectory) {
 
 class CommitmentTest : public ::testing::Test {
  protected:
-  /// Committed to a way along x at 0.8 m/s from time 1 s on.
+  /// Committed to a straight path along x at 0.8 m/s from time 1 s on.
   void set_out() {
     PlanRequest request = request_at(1.0);
     commitment.begin_plan(StateEstimate{}, request);
@@ -155,29 +155,30 @@ TEST(CommitmentHeading, FollowsItsMode) {
 }
 
 /// Drives straight along x to a goal 5 m away, planning every 0.1 s; the heading at each plan.
-std::vector<double> headings_on_the_way(Commitment& commitment, const Trajectory& way, double goal_heading) {
+std::vector<double> headings_along(Commitment& commitment, const Trajectory& trajectory,
+                                   double goal_heading) {
   std::vector<double> headings;
-  for (double time = way.start_time(); time < way.end_time() + 4.0; time += 0.1) {
+  for (double time = trajectory.start_time(); time < trajectory.end_time() + 4.0; time += 0.1) {
     PlanRequest request = request_at(time);
-    request.goal_world = way.tail_position();
+    request.goal_world = trajectory.tail_position();
     request.goal_heading = goal_heading;
     commitment.begin_plan(StateEstimate{}, request);
     headings.push_back(request.heading.heading);
-    commitment.follow(request, follow(way));
+    commitment.follow(request, follow(trajectory));
   }
   return headings;
 }
 
 /// At 1 m/s along x, then braking with 1 m/s^2.
-Trajectory way_to(double distance) {
-  Trajectory way = straight({0.0, 0.0}, {1.0, 0.0}, 1.0, distance - 0.5);
+Trajectory trajectory_to(double distance) {
+  Trajectory trajectory = straight({0.0, 0.0}, {1.0, 0.0}, 1.0, distance - 0.5);
   QuinticPiece brake;
   brake.duration = 1.0;
   brake.coefficients.row(0) << distance - 0.5, 0.0;
   brake.coefficients.row(1) << 1.0, 0.0;
   brake.coefficients.row(2) << -0.5, 0.0;
-  way.append(brake);
-  return way;
+  trajectory.append(brake);
+  return trajectory;
 }
 
 TEST(CommitmentHeading, TurnsToTheGoalsHeadingAtTheEndWhateverTheMode) {
@@ -186,7 +187,7 @@ TEST(CommitmentHeading, TurnsToTheGoalsHeadingAtTheEndWhateverTheMode) {
     AgentParameters parameters;
     parameters.heading_mode = mode;
     Commitment commitment{parameters, {{0.0, 0.0}, 0.0}, 0.0};
-    const std::vector<double> headings = headings_on_the_way(commitment, way_to(5.0), 2.0);
+    const std::vector<double> headings = headings_along(commitment, trajectory_to(5.0), 2.0);
     EXPECT_NEAR(headings[40], 0.0, 1e-9);  // 1 m before the goal
     EXPECT_NEAR(headings.back(), 2.0, 1e-6);
     EXPECT_NEAR(commitment.trajectory().heading().target_heading(), 2.0, 1e-9);
@@ -195,7 +196,7 @@ TEST(CommitmentHeading, TurnsToTheGoalsHeadingAtTheEndWhateverTheMode) {
 
 TEST(CommitmentHeading, KeepsTheHeadingOfItsLastGoalOnTheWayToTheNext) {
   Commitment commitment{AgentParameters{}, {{0.0, 0.0}, 0.3}, 0.0};
-  EXPECT_NEAR(headings_on_the_way(commitment, way_to(5.0), 2.0).back(), 2.0, 1e-6);
+  EXPECT_NEAR(headings_along(commitment, trajectory_to(5.0), 2.0).back(), 2.0, 1e-6);
   PlanRequest request = request_at(20.0);
   request.goal_world = {-5.0, 0.0};
   commitment.begin_plan(StateEstimate{}, request);

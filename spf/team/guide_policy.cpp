@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "spf/math/segment.hpp"
 #include "spf/team/schedule.hpp"
 
 namespace spf {
@@ -90,7 +91,7 @@ void GuidePolicy::start(const WorldSnapshot& world, const Eigen::Vector2d& goal_
   if (goes_round()) choose_standing(world, here, false);
   cost_to_go_.set_standing(standing_, max_speed_);
   cost_to_go_.update(map, goal_world, here);
-  if (goes_round()) {  // what stands on the new way
+  if (goes_round()) {  // what stands on the new path
     choose_standing(world, here, cost_to_go_.ready());
     if (differ(cost_to_go_.standing(), standing_)) {
       cost_to_go_.set_standing(standing_, max_speed_);
@@ -173,10 +174,9 @@ void GuidePolicy::choose_standing(const WorldSnapshot& world, const Eigen::Vecto
 
 bool GuidePolicy::stands_on(const std::vector<Eigen::Vector2d>& path, const StandingDisc& disc) const {
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const Eigen::Vector2d leg = path[i] - path[i - 1];
-    const Eigen::Vector2d offset = disc.position_world - path[i - 1];
-    const double along = std::clamp(offset.dot(leg) / std::max(leg.squaredNorm(), 1e-12), 0.0, 1.0);
-    if ((offset - along * leg).norm() < disc.radius + cost_to_go_.least_clearance()) return true;
+    if (distance_to_segment(disc.position_world, {path[i - 1], path[i]}) <
+        disc.radius + cost_to_go_.least_clearance())
+      return true;
   }
   return false;
 }

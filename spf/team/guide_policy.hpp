@@ -53,7 +53,7 @@ class GuidePolicy {
   // or for large windows so much that an update takes some twenty calls ...
   static constexpr std::int64_t kLeastSlice = 10'000;
   static constexpr std::int64_t kSliceOfNode = 1;
-  // ... and while its way is blocked all that fits beside a plan into a millisecond.
+  // ... and while its path is blocked all that fits beside a plan into a millisecond.
   static constexpr std::int64_t kMostSlice = 30'000;
 
   void start(const WorldSnapshot& world, const Eigen::Vector2d& goal_world, const Eigen::Vector2d& here);
@@ -70,7 +70,7 @@ class GuidePolicy {
   GuideNeeds needs_;
   double goal_tolerance_;  // [m]
   CostToGo cost_to_go_;
-  CostToGo next_;                         // takes its place when done
+  CostToGo next_;                         // replaces it when done
   std::vector<Eigen::Vector2d> corners_;  // [m] kept for its memory
   std::vector<StandingDisc> standing_;    // likewise
   double max_speed_;                      // [m/s]

@@ -81,8 +81,8 @@ TEST(GuidePolicy, FollowsAChangedMapInSlicesAndLeadsAsBeforeMeanwhile) {
   EXPECT_LT(calls, 40);
   CostToGo at_once{AgentParameters{}.guide, AgentParameters{}.robot.radius};
   at_once.update(map, kGoal, kHere);
-  for (const Eigen::Vector2d& place : {kHere, Eigen::Vector2d{0.0, 4.5}, Eigen::Vector2d{-3.0, 2.0}})
-    EXPECT_EQ(guide.cost_to_go().cost_to_go(place), at_once.cost_to_go(place));
+  for (const Eigen::Vector2d& position : {kHere, Eigen::Vector2d{0.0, 4.5}, Eigen::Vector2d{-3.0, 2.0}})
+    EXPECT_EQ(guide.cost_to_go().cost_to_go(position), at_once.cost_to_go(position));
 }
 
 TEST(GuidePolicy, HurriesWhenTheWayIsBlockedWhileAnUpdateIsUnderWay) {

@@ -1,5 +1,6 @@
 // A host for tests of the agent: the robot is exactly where its plan says, observations come at 10 Hz,
-// messages as the test says. Truth (boxes, movers) is kept apart from what the agent is told. Frame: world.
+// messages as the test says. The truth (boxes, obstacles) is kept apart from what the agent is told. Frame:
+// world.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ struct TrueBox {
   [[nodiscard]] double distance(const Eigen::Vector2d& p) const {
     return (low - p).cwiseMax(p - high).cwiseMax(0.0).norm();
   }
-  /// Way along a ray to the box [m], infinity when it misses (slab method; the ray starts outside).
+  /// Distance along a ray to the box [m], infinity when it misses (slab method; the ray starts outside).
   [[nodiscard]] double hit(const Eigen::Vector2d& from, const Eigen::Vector2d& direction) const {
     const Eigen::Array2d a = (low - from).array() / direction.array();
     const Eigen::Array2d b = (high - from).array() / direction.array();
@@ -42,7 +43,7 @@ struct TrueBox {
 };
 
 /// A disc on a given course.
-struct TrueMover {
+struct TrueObstacle {
   int id = 0;
   double radius = 0.4;  // [m]
   std::function<Eigen::Vector2d(double)> position;
@@ -73,7 +74,7 @@ inline TrajectoryMessage told_by(int robot_id, std::uint32_t sequence, double ti
   return message;
 }
 
-/// A straight motion at constant velocity from a place on.
+/// A straight motion at constant velocity from a position on.
 inline Trajectory straight(const Eigen::Vector2d& from, const Eigen::Vector2d& velocity, double start_time,
                            double duration) {
   QuinticPiece piece;
@@ -113,22 +114,22 @@ class IdealHost {
 
   IdealHost(const AgentParameters& parameters, const OccupancyMap& map, const Eigen::Vector2d& start,
             int robot_id = 1)
-      : agent{robot_id, parameters, map, {start, 0.0}, 0.0}, place{start} {}
+      : agent{robot_id, parameters, map, {start, 0.0}, 0.0}, position{start} {}
 
   RobotAgent agent;
-  std::vector<TrueBox> boxes;     // true static surroundings, for the clearance and the scan
-  std::vector<TrueMover> movers;  // true moving obstacles, reported exactly but without velocity
+  std::vector<TrueBox> boxes;           // true static surroundings, for the clearance and the scan
+  std::vector<TrueObstacle> obstacles;  // true moving obstacles, reported exactly but without velocity
   bool send_scans = false;
   StopCause stop = StopCause::none;                     // as its watchdog says
   std::function<void(double, AgentInput&)> more_input;  // may add to what the agent is told
   std::vector<TrajectoryMessage> told;                  // by the agent
 
-  Eigen::Vector2d place;                                             // [m] of the robot now
-  double box_clearance = std::numeric_limits<double>::infinity();    // [m] least so far, between surfaces
-  double mover_clearance = std::numeric_limits<double>::infinity();  // [m] likewise
-  double highest_speed = 0.0;                                        // [m/s] of all committed plans
-  double highest_acceleration = 0.0;                                 // [m/s^2]
-  double largest_jump = 0.0;  // [m] of the place from tick to tick, beyond what max_speed allows
+  Eigen::Vector2d position;                                             // [m] of the robot now
+  double box_clearance = std::numeric_limits<double>::infinity();       // [m] least so far, between surfaces
+  double obstacle_clearance = std::numeric_limits<double>::infinity();  // [m] likewise
+  double highest_speed = 0.0;                                           // [m/s] of all committed plans
+  double highest_acceleration = 0.0;                                    // [m/s^2]
+  double largest_jump = 0.0;  // [m] of the position from tick to tick, beyond what max_speed allows
 
   [[nodiscard]] double time() const { return kTick * ticks_; }
   [[nodiscard]] double speed() const { return agent.committed().state(time()).velocity_world.norm(); }
@@ -137,11 +138,11 @@ class IdealHost {
     AgentInput input;
     const double now = time();
     input.state.valid = true;
-    input.state.pose_world = {place, agent.committed().heading().state(now).heading};
+    input.state.pose_world = {position, agent.committed().heading().state(now).heading};
     if (ticks_ % 10 == 0) {
       input.observation.emplace();
       input.observation->time = now;
-      for (const TrueMover& obstacle : movers)
+      for (const TrueObstacle& obstacle : obstacles)
         input.observation->detections.push_back(
             {obstacle.id, obstacle.position(now), std::nullopt, obstacle.radius, 0.0});
       if (send_scans) input.observation->scan = sweep();
@@ -161,7 +162,7 @@ class IdealHost {
       highest_acceleration = std::max(highest_acceleration, agent.committed().max_acceleration());
     }
     // A plan committed now has to go on from here.
-    largest_jump = std::max(largest_jump, (agent.committed().position(now) - place).norm());
+    largest_jump = std::max(largest_jump, (agent.committed().position(now) - position).norm());
     return output;
   }
 
@@ -183,13 +184,13 @@ class IdealHost {
  private:
   void move_to(const Eigen::Vector2d& next) {
     const double allowed = 1.1 * agent.parameters().robot.max_speed * kTick;
-    largest_jump = std::max(largest_jump, (next - place).norm() - allowed);
-    place = next;
+    largest_jump = std::max(largest_jump, (next - position).norm() - allowed);
+    position = next;
     const double radius = agent.parameters().robot.radius;
-    for (const TrueBox& box : boxes) box_clearance = std::min(box_clearance, box.distance(place) - radius);
-    for (const TrueMover& obstacle : movers) {
-      const double gap = (obstacle.position(time()) - place).norm() - radius - obstacle.radius;
-      mover_clearance = std::min(mover_clearance, gap);
+    for (const TrueBox& box : boxes) box_clearance = std::min(box_clearance, box.distance(position) - radius);
+    for (const TrueObstacle& obstacle : obstacles) {
+      const double gap = (obstacle.position(time()) - position).norm() - radius - obstacle.radius;
+      obstacle_clearance = std::min(obstacle_clearance, gap);
     }
   }
 
@@ -203,7 +204,7 @@ class IdealHost {
       const double angle = heading + scan.angle_min + i * scan.angle_increment;
       double range = std::numeric_limits<double>::infinity();
       for (const TrueBox& box : boxes)
-        range = std::min(range, box.hit(place, {std::cos(angle), std::sin(angle)}));
+        range = std::min(range, box.hit(position, {std::cos(angle), std::sin(angle)}));
       scan.ranges.push_back(range <= scan.max_range ? range : std::numeric_limits<double>::infinity());
     }
     return scan;

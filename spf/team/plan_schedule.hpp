@@ -13,7 +13,7 @@ class PlanSchedule {
  public:
   /// [s] Observations may come so much later than a period after the last ones, and half a period at most,
   /// before a plan is made without them.
-  static constexpr double kPatience = 0.05;
+  static constexpr double kLongestDelay = 0.05;
 
   /// The first plan is due at `time`.
   PlanSchedule(double period, double time) : period_{period}, next_{time} {}
@@ -39,7 +39,7 @@ class PlanSchedule {
     }
     forward_ = false;
     last_forward_ = now;
-    next_ = now + period_ + std::min(0.5 * period_, kPatience);
+    next_ = now + period_ + std::min(0.5 * period_, kLongestDelay);
   }
 
  private:

@@ -56,7 +56,7 @@ TEST(PlanSchedule, WaitsALittleForWhatComesRegularlyAndThenKeepsItsPeriod) {
   PlanSchedule schedule{kPlanPeriod, 0.0};
   schedule.bring_forward(0.0, kLeastApart);
   schedule.planned(0.0);
-  const double latest = kPlanPeriod + PlanSchedule::kPatience;
+  const double latest = kPlanPeriod + PlanSchedule::kLongestDelay;
   EXPECT_EQ(schedule.next(), latest);
   EXPECT_FALSE(schedule.due(latest - kOneTick));
   EXPECT_TRUE(schedule.due(latest));
@@ -98,7 +98,7 @@ TEST(PlanSchedule, IsBoundedHoweverOftenSomethingComes) {
         ++arrivals;
         if (waits_since < 0.0) waits_since = now;
       }
-      ASSERT_LE(now - last_plan, kPlanPeriod + PlanSchedule::kPatience + 1e-6);
+      ASSERT_LE(now - last_plan, kPlanPeriod + PlanSchedule::kLongestDelay + 1e-6);
       if (!schedule.due(now)) {
         ASSERT_TRUE(waits_since < 0.0 || now - waits_since < kLeastApart);
         continue;

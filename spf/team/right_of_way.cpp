@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "spf/math/segment.hpp"
+
 namespace spf {
 namespace {
 
@@ -17,28 +19,9 @@ constexpr double kNoShow = 8.0;      // [s] who stands so long though it may go 
 constexpr double kMeanwhile = 0.5;   // [s] left between one who gets through first and the next
 constexpr double kStalemate = 25.0;  // [s] when both sides wait for so long the earlier goes
 constexpr double kNextAt = 1.0;      // [1] likewise of the next in a queue
-constexpr double kJoined = 8.0;      // [1] of the radius: narrow places that near each other are one
+constexpr double kJoined = 8.0;      // [1] of the radius: narrow passages that near each other are one
 constexpr double kLongest = 100.0;   // [1] of the radius: of a long passage no more is looked at at a time
-constexpr std::array<double, 5> kTurns{0.0, -0.5, 0.5, -1.0, 1.0};  // [rad] from square across the way
-
-/// Least distance between two segments in the plane [m].
-double gap_between(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0,
-                   const Eigen::Vector2d& b1) {
-  const auto to_segment = [](const Eigen::Vector2d& point, const Eigen::Vector2d& from,
-                             const Eigen::Vector2d& to) {
-    const Eigen::Vector2d leg = to - from;
-    const double along = std::clamp((point - from).dot(leg) / std::max(leg.squaredNorm(), 1e-12), 0.0, 1.0);
-    return (point - from - along * leg).norm();
-  };
-  const auto cross = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
-    return u.x() * v.y() - u.y() * v.x();
-  };
-  const Eigen::Vector2d a = a1 - a0;
-  const Eigen::Vector2d b = b1 - b0;
-  if (cross(a, b0 - a0) * cross(a, b1 - a0) < 0.0 && cross(b, a0 - b0) * cross(b, a1 - b0) < 0.0) return 0.0;
-  return std::min(
-      {to_segment(a0, b0, b1), to_segment(a1, b0, b1), to_segment(b0, a0, a1), to_segment(b1, a0, a1)});
-}
+constexpr std::array<double, 5> kTurns{0.0, -0.5, 0.5, -1.0, 1.0};  // [rad] from square across the path
 
 }  // namespace
 
@@ -83,7 +66,7 @@ double RightOfWay::side_room(const OccupancyMap& map, const Eigen::Vector2d& pos
   return enough;
 }
 
-/// Unit vector through a place that two robots cannot pass side by side, the way that leads `along`.
+/// Unit vector through a passage that two robots cannot pass side by side, in the direction of `along`.
 std::optional<Eigen::Vector2d> RightOfWay::narrow_axis(const OccupancyMap& map,
                                                        const Eigen::Vector2d& position,
                                                        const Eigen::Vector2d& along) const {
@@ -106,28 +89,28 @@ std::optional<Eigen::Vector2d> RightOfWay::narrow_axis(const OccupancyMap& map,
 
 std::optional<RightOfWay::Narrow> RightOfWay::next_narrow(const Eigen::Vector2d& here, const CostToGo& guide,
                                                           const OccupancyMap& map) {
-  guide.shortest_path(here, way_);
+  guide.shortest_path(here, path_);
   const double spacing = kSpacing * robot_.radius;
   std::optional<Narrow> narrow;
-  double last = 0.0;   // [m] ahead, of the last narrow place
+  double last = 0.0;   // [m] ahead, of the last narrow passage
   double ahead = 0.0;  // [m] to the leg
-  for (std::size_t i = 1; i < way_.size(); ++i) {
-    const Eigen::Vector2d leg = way_[i] - way_[i - 1];
+  for (std::size_t i = 1; i < path_.size(); ++i) {
+    const Eigen::Vector2d leg = path_[i] - path_[i - 1];
     const double length = leg.norm();
     if (!(length > 0.0)) continue;
     const Eigen::Vector2d along = leg / length;
     for (double at = 0.0; at < length; at += spacing) {
-      const double place = ahead + at;
-      if (!narrow && place > claim_distance()) return std::nullopt;
-      const bool far = narrow && place > narrow->ahead + kLongest * robot_.radius;
-      if (far || (narrow && place > last + kJoined * robot_.radius)) return narrow;
-      const Eigen::Vector2d position = way_[i - 1] + at * along;
+      const double distance = ahead + at;
+      if (!narrow && distance > claim_distance()) return std::nullopt;
+      const bool far = narrow && distance > narrow->ahead + kLongest * robot_.radius;
+      if (far || (narrow && distance > last + kJoined * robot_.radius)) return narrow;
+      const Eigen::Vector2d position = path_[i - 1] + at * along;
       const std::optional<Eigen::Vector2d> axis = narrow_axis(map, position, along);
       if (!axis) continue;
-      if (!narrow) narrow = Narrow{position - spacing * *axis, position, place - spacing, place};
+      if (!narrow) narrow = Narrow{position - spacing * *axis, position, distance - spacing, distance};
       narrow->exit = position + spacing * *axis;
-      narrow->through = place + spacing;
-      last = place;
+      narrow->through = distance + spacing;
+      last = distance;
     }
     ahead += length;
   }
@@ -139,11 +122,11 @@ void RightOfWay::renew_claim(double time, const Eigen::Vector2d& here, const std
   if (claim_) {
     const Eigen::Vector2d axis = claim_->exit_world - claim_->entry_world;
     const double progress = (here - claim_->entry_world).dot(axis) / std::max(axis.squaredNorm(), 1e-12);
-    const bool same =
-        narrow && axis.dot(narrow->exit - narrow->entry) > 0.0 &&
-        gap_between(claim_->entry_world, claim_->exit_world, narrow->entry, narrow->exit) < robot_.radius;
-    const bool beside =
-        gap_between(claim_->entry_world, claim_->exit_world, here, here) < 2.0 * robot_.radius;
+    const bool same = narrow && axis.dot(narrow->exit - narrow->entry) > 0.0 &&
+                      distance_between_segments({claim_->entry_world, claim_->exit_world},
+                                                {narrow->entry, narrow->exit}) < robot_.radius;
+    const bool beside = distance_between_segments({claim_->entry_world, claim_->exit_world}, {here, here}) <
+                        2.0 * robot_.radius;
     if (same) {
       if (narrow->ahead > 0.0) claim_->entry_world = narrow->entry;
       claim_->exit_world = narrow->exit;
@@ -156,8 +139,8 @@ void RightOfWay::renew_claim(double time, const Eigen::Vector2d& here, const std
     claim_ = PassageClaim{narrow->entry, narrow->exit, time, narrow->ahead <= 0.0, false};
 }
 
-/// Who else wants to go through the place that the robot claims. One that has stood for long though it may go
-/// is left to the guide and to the planner's risks.
+/// Who else wants to go through the passage that the robot claims. One that has stood for long though it may
+/// go is left to the guide and to the planner's risks.
 RightOfWay::Rivals RightOfWay::rivals(const WorldSnapshot& world, double time) const {
   Rivals rivals;
   rivals.with = {world.rank(), claim_->since};
@@ -234,15 +217,15 @@ int RightOfWay::whom_to_let_pass(const WorldSnapshot& world, double time, const 
   return now.in_front;
 }
 
-/// Whether a peer claims the same place, and is where it may.
+/// Whether a peer claims the same passage, and is where it may.
 bool RightOfWay::meets(const Peer& peer, double time) const {
   if (peer.claim == nullptr || peer.expired) return false;
   const PassageClaim& claim = *peer.claim;
   const double farthest = (kLongest + 2.0 * kWaitAt) * std::max(robot_.radius, peer.radius);
   if ((claim.exit_world - claim.entry_world).norm() > farthest) return false;
   if ((claim.entry_world - peer.position(time)).norm() > farthest) return false;
-  return gap_between(claim_->entry_world, claim_->exit_world, claim.entry_world, claim.exit_world) <
-         robot_.radius + peer.radius;
+  return distance_between_segments({claim_->entry_world, claim_->exit_world},
+                                   {claim.entry_world, claim.exit_world}) < robot_.radius + peer.radius;
 }
 
 bool RightOfWay::goes_same_way(const PassageClaim& other) const {

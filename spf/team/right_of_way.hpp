@@ -1,5 +1,5 @@
-// Who goes first through a place that is too narrow for two: robots that come to a door or a corridor of one
-// lane tell it each other (PassageClaim), go through it in one direction at a time, and wait beside its mouth
+// Who goes first through a passage that is too narrow for two: robots that come to a door or a corridor of
+// one lane tell each other (PassageClaim), go through in one direction at a time, and wait beside its mouth
 // meanwhile. Every robot decides by itself, by the same rule and from the same messages. Frame: world.
 #pragma once
 
@@ -26,19 +26,19 @@ class RightOfWay {
     gives_way_ = gives_way;
   }
 
-  /// Looks along the guide's way from `here` [m] on, and at what the peers claim, at a time [s].
+  /// Looks along the guide's path from `here` [m] on, and at what the peers claim, at a time [s].
   void update(double time, const Eigen::Vector2d& here, const CostToGo& guide, const WorldSnapshot& world);
   /// The robot stops for another cause: it wants nothing, unless it is in a passage already.
   void stop();
 
-  /// To be told to the peers; none where the way is wide, and where nobody hears it.
+  /// To be told to the peers; none where the path is wide, and where nobody hears it.
   [[nodiscard]] const std::optional<PassageClaim>& claim() const { return claim_; }
   /// Where the robot has to wait; none while it may go on.
   [[nodiscard]] const std::optional<GiveWay>& give_way() const { return give_way_; }
 
  private:
   enum class Side { unknown, own, other };
-  /// A claim's place in the order in which all would be served if they came from one side.
+  /// A claim's rank in the order in which all would be served if they came from one side.
   struct Turn {
     Rank rank;
     double since = 0.0;  // [s]
@@ -48,7 +48,7 @@ class RightOfWay {
     std::optional<Turn> against;         // the first of the other one
     std::optional<Turn> inside_against;  // one who is inside and comes towards the robot
     double against_gap = 0.0;            // [m] from the nearest of the other direction to its entry
-    bool inside_with = false;            // somebody is inside who goes the robot's way
+    bool inside_with = false;            // somebody is inside who goes like the robot
     int nearer = 0;                      // those that go the same way and are nearer to the entry
     int in_front = -1;                   // one of them
     bool stalemate = false;              // somebody from the other side has waited for long
@@ -56,8 +56,8 @@ class RightOfWay {
   struct Narrow {
     Eigen::Vector2d entry;  // [m]
     Eigen::Vector2d exit;   // [m]
-    double ahead;           // [m] along the way to the entry, not positive inside
-    double through;         // [m] along the way to the exit
+    double ahead;           // [m] along the path to the entry, not positive inside
+    double through;         // [m] along the path to the exit
   };
   [[nodiscard]] std::optional<Narrow> next_narrow(const Eigen::Vector2d& here, const CostToGo& guide,
                                                   const OccupancyMap& map);
@@ -86,7 +86,7 @@ class RightOfWay {
   double peer_radius_ = 0.0;  // [m] the largest
   double wait_at_ = 0.0;      // [1] of the radius, before the entry
   bool queues_ = false;       // it waits for one who goes the same way
-  std::vector<Eigen::Vector2d> way_;
+  std::vector<Eigen::Vector2d> path_;
   std::optional<PassageClaim> claim_;
   Side with_turn_ = Side::unknown;  // of which direction the last was that was seen in the passage
   std::optional<GiveWay> give_way_;

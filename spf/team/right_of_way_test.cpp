@@ -24,7 +24,7 @@ class Walker {
  public:
   Walker(int id, const OccupancyMap& map, const Eigen::Vector2d& goal, int priority = 0,
          bool gives_way = true)
-      : id_{id}, priority_{priority}, map_{&map}, way_{kRobot, gives_way} {
+      : id_{id}, priority_{priority}, map_{&map}, right_of_way_{kRobot, gives_way} {
     EXPECT_EQ(guide_.update(map, goal, {-goal.x(), goal.y()}), CostToGoOutcome::reachable);
   }
 
@@ -41,7 +41,7 @@ class Walker {
     world.priority = priority_;
     world.map = map_;
     world.peers = &peers;
-    way_.update(time, here, guide_, world);
+    right_of_way_.update(time, here, guide_, world);
   }
   [[nodiscard]] Peer as_peer() const {
     Peer peer;
@@ -49,16 +49,18 @@ class Walker {
     peer.priority = priority_;
     peer.state = PeerState::moving;
     peer.stood = stood;
-    peer.claim = way_.claim() ? &*way_.claim() : nullptr;
+    peer.claim = right_of_way_.claim() ? &*right_of_way_.claim() : nullptr;
     peer.trajectory = Shared<Trajectory>{Trajectory::standing(here_, 0.0, 1.0)};
     return peer;
   }
   /// Robot number that it lets pass, -1: none.
-  [[nodiscard]] int lets_pass() const { return way_.give_way() ? way_.give_way()->peer : -1; }
-  [[nodiscard]] const RightOfWay& way() const { return way_; }
+  [[nodiscard]] int lets_pass() const {
+    return right_of_way_.give_way() ? right_of_way_.give_way()->peer : -1;
+  }
+  [[nodiscard]] const RightOfWay& right_of_way() const { return right_of_way_; }
   [[nodiscard]] const CostToGo& guide() const { return guide_; }
 
-  void stop() { way_.stop(); }
+  void stop() { right_of_way_.stop(); }
 
   double stood = 0.0;  // [s]
 
@@ -68,7 +70,7 @@ class Walker {
   const OccupancyMap* map_;
   Eigen::Vector2d here_ = Eigen::Vector2d::Zero();
   CostToGo guide_{CostToGoParameters{}, kRobot.radius, SpaceTimeParameters{}.static_margin};
-  RightOfWay way_;
+  RightOfWay right_of_way_;
 };
 
 TEST(RightOfWay, ClaimsADoorThatTwoDoNotFitThroughInTimeAndNothingWide) {
@@ -77,29 +79,29 @@ TEST(RightOfWay, ClaimsADoorThatTwoDoNotFitThroughInTimeAndNothingWide) {
     Walker other{2, narrow, {-6.0, 0.0}};
     Walker walker{1, narrow, {6.0, 0.0}};
     walker.look(0.0, {-3.0, 0.0}, {});
-    EXPECT_FALSE(walker.way().claim()) << "nobody hears it";
+    EXPECT_FALSE(walker.right_of_way().claim()) << "nobody hears it";
     walker.look(0.0, {-9.0, 0.0}, {&other});
-    EXPECT_FALSE(walker.way().claim()) << "far away";
+    EXPECT_FALSE(walker.right_of_way().claim()) << "far away";
     walker.look(1.0, {-3.0, 0.0}, {&other});
-    ASSERT_TRUE(walker.way().claim());
-    const PassageClaim claim = *walker.way().claim();
+    ASSERT_TRUE(walker.right_of_way().claim());
+    const PassageClaim claim = *walker.right_of_way().claim();
     EXPECT_LT(claim.entry_world.x(), -0.5 * thickness);
     EXPECT_GT(claim.exit_world.x(), 0.5 * thickness);
     EXPECT_LT((claim.exit_world - claim.entry_world).norm(), thickness + 2.0);
     EXPECT_EQ(claim.since, 1.0);
     EXPECT_FALSE(claim.inside);
     walker.look(2.0, {0.0, 0.0}, {&other});
-    ASSERT_TRUE(walker.way().claim());
-    EXPECT_TRUE(walker.way().claim()->inside);
-    EXPECT_EQ(walker.way().claim()->since, 1.0);
+    ASSERT_TRUE(walker.right_of_way().claim());
+    EXPECT_TRUE(walker.right_of_way().claim()->inside);
+    EXPECT_EQ(walker.right_of_way().claim()->since, 1.0);
     walker.look(3.0, {2.0, 0.0}, {&other});
-    EXPECT_FALSE(walker.way().claim()) << "it is through";
+    EXPECT_FALSE(walker.right_of_way().claim()) << "it is through";
   }
   const OccupancyMap wide = wall_with_passage(2.2, 3.0);
   Walker other{2, wide, {-6.0, 0.0}};
   Walker walker{1, wide, {6.0, 0.0}};
   walker.look(0.0, {-3.0, 0.0}, {&other});
-  EXPECT_FALSE(walker.way().claim());
+  EXPECT_FALSE(walker.right_of_way().claim());
 }
 
 TEST(RightOfWay, WhoClaimsFirstGoesAndTheOtherWaitsBesideTheMouthUntilItIsOut) {
@@ -109,7 +111,7 @@ TEST(RightOfWay, WhoClaimsFirstGoesAndTheOtherWaitsBesideTheMouthUntilItIsOut) {
   left.look(1.0, {-3.0, 0.0}, {&right});
   right.look(1.5, {3.0, 0.0}, {&left});
   EXPECT_EQ(right.lets_pass(), 2);
-  const double stop = right.way().give_way()->cost_to_go;
+  const double stop = right.right_of_way().give_way()->cost_to_go;
   EXPECT_GT(stop, right.guide().cost_to_go({1.0, 0.0}));
   EXPECT_LT(stop, right.guide().cost_to_go({2.5, 0.0}));
   left.look(2.0, {-2.0, 0.0}, {&right});
@@ -168,7 +170,7 @@ TEST(RightOfWay, RobotsThatCrossAThinWallAtAnyAngleGoTheSameWay) {
   Walker down{2, map, {2.0, -4.0}};
   up.look(1.0, {-2.0, -4.0}, {&down});
   down.look(1.5, {-2.0, 4.0}, {&up});
-  ASSERT_TRUE(up.way().claim() && down.way().claim());
+  ASSERT_TRUE(up.right_of_way().claim() && down.right_of_way().claim());
   EXPECT_EQ(down.lets_pass(), -1);
   EXPECT_EQ(up.lets_pass(), -1);
 }
@@ -197,7 +199,7 @@ TEST(RightOfWay, OfTwoInsideTheLaterBacksOut) {
   left.look(1.6, {-1.5, 0.0}, {&right});
   EXPECT_EQ(left.lets_pass(), -1);
   ASSERT_EQ(right.lets_pass(), 1);
-  EXPECT_GT(right.way().give_way()->cost_to_go, right.guide().cost_to_go({2.5, 0.0}));
+  EXPECT_GT(right.right_of_way().give_way()->cost_to_go, right.guide().cost_to_go({2.5, 0.0}));
 }
 
 TEST(RightOfWay, NobodyWaitsInAQueueForOneWhoseTurnComesLater) {
@@ -223,19 +225,19 @@ TEST(RightOfWay, ClaimsNothingAtItsGoalAndPromisesNothingForAMethodThatGoesOn) {
   Walker other{2, map, {-6.0, 0.0}};
   Walker inside{1, map, {1.0, 0.0}};
   inside.look(1.0, {-1.0, 0.0}, {&other});
-  EXPECT_TRUE(inside.way().claim());
+  EXPECT_TRUE(inside.right_of_way().claim());
   inside.look(4.0, {0.9, 0.0}, {&other});
-  EXPECT_FALSE(inside.way().claim());
+  EXPECT_FALSE(inside.right_of_way().claim());
 
   Walker left{3, map, {6.0, 0.0}};
   Walker right{4, map, {-6.0, 0.0}, 0, false};
   left.look(1.0, {-3.0, 0.0}, {&right});
   right.look(1.5, {3.0, 0.0}, {&left});
   ASSERT_EQ(right.lets_pass(), 3);
-  EXPECT_FALSE(right.way().claim()->waits);
+  EXPECT_FALSE(right.right_of_way().claim()->waits);
 }
 
-TEST(RightOfWay, IgnoresClaimsToPlacesFarFromWhoMakesThem) {
+TEST(RightOfWay, IgnoresClaimsToPassagesFarFromWhoMakesThem) {
   const OccupancyMap map = wall_with_passage(0.9, 0.3);
   Walker left{1, map, {6.0, 0.0}};
   Walker right{2, map, {-6.0, 0.0}};
@@ -246,7 +248,7 @@ TEST(RightOfWay, IgnoresClaimsToPlacesFarFromWhoMakesThem) {
   liar.trajectory = Shared<Trajectory>{Trajectory::standing({500.0, 0.0}, 0.0, 1.0)};
   left.look_at(1.1, {-3.0, 0.0}, {liar});
   EXPECT_EQ(left.lets_pass(), -1);
-  PassageClaim long_claim = *right.way().claim();
+  PassageClaim long_claim = *right.right_of_way().claim();
   long_claim.entry_world.x() = 1e6;
   Peer greedy = right.as_peer();
   greedy.claim = &long_claim;

@@ -19,7 +19,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, AllocationTest,
                          ::testing::Values("space_time", "spf_empc", "es2", "es2_constant_velocity", "orca"),
                          [](const auto& parameter) { return std::string{parameter.param}; });
 
-/// Five obstacles that wander over the robot's way, four peers that cross it, boxes. The robot goes to and
+/// Five obstacles that wander over the robot's path, four peers that cross it, boxes. The robot goes to and
 /// fro.
 TEST_P(AllocationTest, NoneAfterWarmUp) {
   const std::vector<TrueBox> boxes{
@@ -44,8 +44,8 @@ TEST_P(AllocationTest, NoneAfterWarmUp) {
       for (int k = 0; k < 5; ++k) {
         // They turn so quickly that none of them stands: what stands changes the guide, which is computed
         // anew then and allocates on a known map.
-        const Eigen::Vector2d place{-4.0 + 2.0 * k, 4.0 * std::sin(0.3 * time + k)};
-        const Eigen::Vector2d seen = place + 0.02 * noise.normal2();
+        const Eigen::Vector2d position{-4.0 + 2.0 * k, 4.0 * std::sin(0.3 * time + k)};
+        const Eigen::Vector2d seen = position + 0.02 * noise.normal2();
         input.observation->detections.push_back({k, seen, std::nullopt, 0.4, 0.02});
       }
     }

@@ -168,7 +168,7 @@ TEST_P(HostileTest, RandomMessages) {
   host.agent.set_goal({2.0, 0.0});
   for (int i = 0; i < 500; ++i) {
     host.tick();
-    ASSERT_TRUE(host.place.allFinite());
+    ASSERT_TRUE(host.position.allFinite());
     ASSERT_TRUE(std::isfinite(host.agent.committed().duration()));
   }
   EXPECT_LT(host.largest_jump, 1e-6);

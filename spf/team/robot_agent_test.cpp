@@ -37,7 +37,7 @@ TEST_P(RobotAgentTest, ReachesItsGoalAroundAKnownBox) {
   host.boxes = {kBoxAhead};
   host.agent.set_goal({4.0, 0.0});
   EXPECT_TRUE(host.arrives_within(16.0));
-  EXPECT_LT((host.place - Eigen::Vector2d{4.0, 0.0}).norm(), 0.05);
+  EXPECT_LT((host.position - Eigen::Vector2d{4.0, 0.0}).norm(), 0.05);
   EXPECT_GT(host.box_clearance, 0.0);
   EXPECT_EQ(host.agent.status().state, PeerState::arrived);
   expect_limits(host);
@@ -56,10 +56,10 @@ TEST_P(RobotAgentTest, ReachesItsGoalAroundABoxThatItHasToSee) {
 
 TEST_P(RobotAgentTest, GivesWayToAnObstacleThatComesTowardsIt) {
   IdealHost host{parameters(), empty_map(), {-4.0, 0.0}};
-  host.movers = {{5, 0.4, [](double time) { return Eigen::Vector2d{4.0 - 0.5 * time, 0.1}; }}};
+  host.obstacles = {{5, 0.4, [](double time) { return Eigen::Vector2d{4.0 - 0.5 * time, 0.1}; }}};
   host.agent.set_goal({4.0, 0.0});
   EXPECT_TRUE(host.arrives_within(20.0));
-  EXPECT_GT(host.mover_clearance, 0.0);
+  EXPECT_GT(host.obstacle_clearance, 0.0);
   expect_limits(host);
 }
 
@@ -68,7 +68,7 @@ TEST_P(RobotAgentTest, StandsWithoutAGoal) {
   host.run(1.0);
   EXPECT_EQ(host.agent.status().reason, StopCause::no_goal);
   EXPECT_EQ(host.agent.status().state, PeerState::stopped);
-  EXPECT_EQ(host.place, (Eigen::Vector2d{1.0, 1.0}));
+  EXPECT_EQ(host.position, (Eigen::Vector2d{1.0, 1.0}));
 }
 
 TEST_P(RobotAgentTest, BrakesWhenItsGoalIsTakenAway) {
@@ -93,9 +93,9 @@ TEST_P(RobotAgentTest, PausesAndGoesOn) {
   host.run(1.8);
   EXPECT_EQ(host.speed(), 0.0);
   EXPECT_EQ(host.agent.status().reason, StopCause::paused);
-  const Eigen::Vector2d stopped = host.place;
+  const Eigen::Vector2d stopped = host.position;
   host.run(1.0);
-  EXPECT_EQ(host.place, stopped);
+  EXPECT_EQ(host.position, stopped);
   host.stop = StopCause::none;
   EXPECT_TRUE(host.arrives_within(12.0));
   expect_limits(host);
@@ -133,7 +133,7 @@ TEST_P(RobotAgentTest, KeepsWhatItKnowsWhenItsParametersChange) {
   IdealHost host{parameters(), empty_map(), {-4.0, 0.0}};
   host.boxes = {kBoxAhead};
   host.send_scans = true;
-  host.movers = {{5, 0.4, [](double) { return Eigen::Vector2d{-4.0, 5.0}; }}};
+  host.obstacles = {{5, 0.4, [](double) { return Eigen::Vector2d{-4.0, 5.0}; }}};
   host.agent.set_goal({4.0, 0.0});
   host.run(2.0);
   const std::size_t seen = host.agent.map().occupied_points().size();
@@ -205,7 +205,7 @@ TEST_P(RobotAgentTest, SaysThatThereIsNoPathToAGoalInsideABox) {
   host.run(12.0);
   EXPECT_LT(host.speed(), 0.02);
   EXPECT_EQ(host.agent.status().reason, StopCause::no_path);
-  EXPECT_LT(kBoxAhead.distance(host.place), 0.6);  // as near as its guide lets it
+  EXPECT_LT(kBoxAhead.distance(host.position), 0.6);  // as near as its guide lets it
   EXPECT_GT(host.box_clearance, 0.0);
 }
 
@@ -213,7 +213,7 @@ TEST_P(RobotAgentTest, NamesTheObstacleThatIsParkedInTheOnlyGap) {
   IdealHost host{parameters(), map_of(kWallWithGap), {-4.0, 0.0}};
   host.boxes = kWallWithGap;
   bool gone = false;
-  host.movers = {{23, 0.4, [&gone](double) { return Eigen::Vector2d{0.0, gone ? 8.0 : 0.0}; }}};
+  host.obstacles = {{23, 0.4, [&gone](double) { return Eigen::Vector2d{0.0, gone ? 8.0 : 0.0}; }}};
   host.agent.set_goal({4.0, 0.0});
   host.run(15.0);
   for (int i = 0; i < 20; ++i) {  // it does not only happen to stand
@@ -222,7 +222,7 @@ TEST_P(RobotAgentTest, NamesTheObstacleThatIsParkedInTheOnlyGap) {
     EXPECT_EQ(host.agent.status().reason, StopCause::obstacle_ahead);
     EXPECT_EQ(host.agent.status().blocking_id, 23);
   }
-  EXPECT_GT(host.mover_clearance, 0.0);
+  EXPECT_GT(host.obstacle_clearance, 0.0);
   EXPECT_GT(host.box_clearance, 0.0);
   gone = true;
   EXPECT_TRUE(host.arrives_within(20.0));
@@ -234,9 +234,9 @@ TEST_P(RobotAgentTest, NamesThePeerThatIsParkedInTheOnlyGap) {
   std::uint32_t sequence = 0;
   bool gone = false;
   host.more_input = [&](double time, AgentInput& input) {
-    const Eigen::Vector2d place{0.0, gone ? 8.0 : 0.0};
+    const Eigen::Vector2d position{0.0, gone ? 8.0 : 0.0};
     input.messages.push_back(
-        told_by(9, ++sequence, time, PeerState::arrived, Trajectory::standing(place, time, 1.0)));
+        told_by(9, ++sequence, time, PeerState::arrived, Trajectory::standing(position, time, 1.0)));
   };
   host.agent.set_goal({4.0, 0.0});
   host.run(25.0);
@@ -246,7 +246,7 @@ TEST_P(RobotAgentTest, NamesThePeerThatIsParkedInTheOnlyGap) {
     EXPECT_EQ(host.agent.status().reason, StopCause::peer_ahead);
     EXPECT_EQ(host.agent.status().blocking_id, 9);
   }
-  EXPECT_GT(host.place.norm(), 0.6);
+  EXPECT_GT(host.position.norm(), 0.6);
   gone = true;
   EXPECT_TRUE(host.arrives_within(20.0));
 }
@@ -259,18 +259,18 @@ TEST(RobotAgent, GoesOnDodgingAfterItHasArrived) {
     host.agent.set_goal({0.0, 0.0});
     ASSERT_TRUE(host.arrives_within(8.0));
     const double start = host.time();
-    host.movers = {{5, 0.4, [start](double time) {
-                      return Eigen::Vector2d{-5.0 + 0.6 * (time - start), 0.05};
-                    }}};
+    host.obstacles = {{5, 0.4, [start](double time) {
+                         return Eigen::Vector2d{-5.0 + 0.6 * (time - start), 0.05};
+                       }}};
     double farthest = 0.0;
     for (int i = 0; i < 1800; ++i) {
       host.tick();
-      farthest = std::max(farthest, host.place.norm());
+      farthest = std::max(farthest, host.position.norm());
     }
-    EXPECT_GT(host.mover_clearance, 0.0);
+    EXPECT_GT(host.obstacle_clearance, 0.0);
     EXPECT_GT(farthest, 0.3);  // it did step aside
     EXPECT_EQ(host.agent.status().reason, StopCause::arrived);
-    EXPECT_LT(host.place.norm(), 0.05);
+    EXPECT_LT(host.position.norm(), 0.05);
     EXPECT_LT(host.largest_jump, 1e-6);
   }
 }
@@ -316,7 +316,7 @@ TEST_P(RobotAgentTest, AvoidsAPeerOfLowerPriorityThatDrivesIntoIt) {
   std::uint32_t sequence = 0;
   double least = std::numeric_limits<double>::infinity();
   host.more_input = [&](double time, AgentInput& input) {
-    least = std::min(least, (host.place - course.position(time)).norm());
+    least = std::min(least, (host.position - course.position(time)).norm());
     input.messages.push_back(told_by(7, ++sequence, time, PeerState::moving, course));
   };
   host.agent.set_goal({4.0, 0.0});
@@ -335,7 +335,7 @@ TEST(RobotAgent, OfThePapersMethodBrakesForAPeerOfLowerPriority) {
   std::uint32_t sequence = 0;
   double least = std::numeric_limits<double>::infinity();
   host.more_input = [&](double time, AgentInput& input) {
-    least = std::min(least, (host.place - course.position(time)).norm());
+    least = std::min(least, (host.position - course.position(time)).norm());
     const PeerState state = time < 4.0 ? PeerState::moving : PeerState::stopped;
     input.messages.push_back(told_by(7, ++sequence, time, state, course));
   };
@@ -349,12 +349,12 @@ TEST(RobotAgent, OfThePapersMethodBrakesForAPeerOfLowerPriority) {
 
 TEST_P(RobotAgentTest, LetsTheDiscOfASilentPeerGrowAndForgetsIt) {
   IdealHost host{parameters(), empty_map(), {-4.0, 0.0}};
-  const Eigen::Vector2d last_place{0.0, 3.0};
+  const Eigen::Vector2d last_position{0.0, 3.0};
   host.more_input = [&](double time, AgentInput& input) {
     if (time > 1.0) return;
     const auto sequence = static_cast<std::uint32_t>(std::lround(100.0 * time));
     input.messages.push_back(
-        told_by(9, sequence, time, PeerState::moving, Trajectory::standing(last_place, time, 1.0)));
+        told_by(9, sequence, time, PeerState::moving, Trajectory::standing(last_position, time, 1.0)));
   };
   host.agent.set_goal({4.0, 0.0});
   host.run(1.5);
@@ -366,7 +366,7 @@ TEST_P(RobotAgentTest, LetsTheDiscOfASilentPeerGrowAndForgetsIt) {
     host.run(0.1);
     ASSERT_EQ(host.agent.peers().size(), 1U);
     const Peer& peer = host.agent.peers()[0];
-    EXPECT_EQ(peer.position(host.time()), last_place);
+    EXPECT_EQ(peer.position(host.time()), last_position);
     if (!peer.expired) continue;
     EXPECT_GT(peer.growth, growth);
     growth = peer.growth;
@@ -390,7 +390,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, RobotAgentMethodTest, ::testing::ValuesIn([] {
 TEST_P(RobotAgentMethodTest, CrossesAShortWayPastAnObstacleAndAPeer) {
   IdealHost host{
       with_method(AgentParameters{}, GetParam()), map_of({{{0.0, 1.5}, {1.0, 2.5}}}), {-3.0, 0.0}, 2};
-  host.movers = {{5, 0.4, [](double) { return Eigen::Vector2d{0.2, -0.3}; }}};
+  host.obstacles = {{5, 0.4, [](double) { return Eigen::Vector2d{0.2, -0.3}; }}};
   std::uint32_t sequence = 0;
   host.more_input = [&](double time, AgentInput& input) {
     input.messages.push_back(
@@ -398,14 +398,14 @@ TEST_P(RobotAgentMethodTest, CrossesAShortWayPastAnObstacleAndAPeer) {
   };
   host.agent.set_goal({3.0, 0.2}, 1.0);
   EXPECT_TRUE(host.arrives_within(25.0)) << to_string(host.agent.status().reason);
-  EXPECT_GT(host.mover_clearance, 0.0);
+  EXPECT_GT(host.obstacle_clearance, 0.0);
   EXPECT_LT(host.largest_jump, 1e-6);
 }
 
 TEST_P(RobotAgentMethodTest, GivesTheSameBitsForTheSameInputs) {
   const AgentParameters parameters = with_method(AgentParameters{}, GetParam());
   IdealHost host{parameters, map_of({kBoxAhead}), {-3.0, 0.0}};
-  host.movers = {{5, 0.4, [](double time) { return Eigen::Vector2d{3.0 - 0.5 * time, 1.2}; }}};
+  host.obstacles = {{5, 0.4, [](double time) { return Eigen::Vector2d{3.0 - 0.5 * time, 1.2}; }}};
   RandomStream noise{9};
   AgentInput heard;  // by both agents
   host.more_input = [&](double, AgentInput& input) {
@@ -425,7 +425,7 @@ TEST_P(RobotAgentMethodTest, GivesTheSameBitsForTheSameInputs) {
     ASSERT_EQ(host.agent.committed().duration(), second.committed().duration());
     ASSERT_EQ(host.agent.committed().tail_position(), second.committed().tail_position());
   }
-  EXPECT_GT((host.place - Eigen::Vector2d{-3.0, 0.0}).norm(), 1.0);
+  EXPECT_GT((host.position - Eigen::Vector2d{-3.0, 0.0}).norm(), 1.0);
 }
 
 TEST(RobotAgent, ExactlyOnItsPlanItIsSureOfIt) {
@@ -511,8 +511,8 @@ TEST(RobotAgent, RiskIsTheSameForEveryMethod) {
     host.agent.set_goal({6.0, 0.0});
     host.run(0.5);
     EXPECT_EQ(host.agent.last_plan().risk, 0.0);
-    const Eigen::Vector2d beside = host.place + Eigen::Vector2d{0.3, 0.4};
-    host.movers = {{5, 0.4, [beside](double) { return beside; }}};
+    const Eigen::Vector2d beside = host.position + Eigen::Vector2d{0.3, 0.4};
+    host.obstacles = {{5, 0.4, [beside](double) { return beside; }}};
     host.run(0.2);
     EXPECT_GT(host.agent.last_plan().risk, 0.99);
     EXPECT_LE(host.agent.last_plan().risk, 1.0);

@@ -1,4 +1,4 @@
-// Rates, time-outs and rules of the agent itself.
+// Parameter group `team`.
 #pragma once
 
 #include "spf/math/parameters.hpp"

@@ -1,4 +1,4 @@
-// Dense linear algebra to compare with. Its templates are dear to compile, so they are compiled once.
+// Dense linear algebra to compare with. Its templates are costly to compile, so they are compiled once.
 #pragma once
 
 #include <Eigen/Core>

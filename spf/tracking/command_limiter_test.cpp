@@ -86,12 +86,12 @@ TEST_F(LimiterTest, GetsFromAnyMotionToAnyOther) {
   for (int pair = 0; pair < 200; ++pair) {
     Eigen::Vector3d command = Eigen::Vector3d::Zero();
     for (int leg = 0; leg < 2; ++leg) {
-      const double way = random.uniform(-3.0, 3.0);
+      const double course = random.uniform(-3.0, 3.0);
       const double yaw_rate = random.uniform(-1.4, 1.4);
       const Eigen::Vector3d wanted =
-          kinematics.saturated(wheels(0.9 * std::cos(way), 0.9 * std::sin(way), yaw_rate));
+          kinematics.saturated(wheels(0.9 * std::cos(course), 0.9 * std::sin(course), yaw_rate));
       // Turning on at the same time, the limits of the wheels turn with the body: only a steady one is met.
-      const Eigen::Vector3d steady = kinematics.saturated(wheels(0.9 * std::cos(way), 0.0, 0.0));
+      const Eigen::Vector3d steady = kinematics.saturated(wheels(0.9 * std::cos(course), 0.0, 0.0));
       for (int i = 0; i < 100; ++i) command = limiter.limited(wanted, command, kLimiterPeriod);
       for (int i = 0; i < 100; ++i) command = limiter.limited(steady, command, kLimiterPeriod);
       ASSERT_LT((command - steady).norm(), 1e-9) << pair;

@@ -26,21 +26,20 @@ Trajectory circle(const HeadingProfile& heading) {
     const double ramp = std::clamp(std::min(t, 8.0 - t) / 2.0, 0.0, 1.0);
     return ramp * ramp * (3.0 - 2.0 * ramp);
   };
-  Eigen::Matrix2Xd places(2, 33);
+  Eigen::Matrix2Xd positions(2, 33);
   double angle = 0.0;
   constexpr int kSub = 2500;
   for (int i = 0; i <= 32; ++i) {
-    places.col(i) << std::cos(angle), std::sin(angle);
+    positions.col(i) << std::cos(angle), std::sin(angle);
     for (int j = 0; j < kSub; ++j) angle += 0.25 / kSub * speed(0.25 * i + 0.25 * (j + 0.5) / kSub);
   }
-  return plan_through(places, 0.25, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), heading);
+  return plan_through(positions, 0.25, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), heading);
 }
 
 struct LoopOptions {
   double pose_sigma = 0.0;
   double heading_sigma = 0.0;
-  double slip =
-      0.0;  ///< share of the true velocity missing from the pose: the floor slips away under the wheels
+  double wheel_slip = 0.0;  ///< share of the true velocity that is missing from the pose
   double duration = 9.0;
   double motor_lag = 0.05;
 };
@@ -80,7 +79,7 @@ LoopResult run_loop(const TrackerParameters& parameters, const Trajectory& traje
     const Eigen::Vector2d before = plant.state().pose_world.position_world;
     plant.step(0.005, command);
     PlantState state = plant.state();
-    state.pose_world.position_world -= options.slip * (state.pose_world.position_world - before);
+    state.pose_world.position_world -= options.wheel_slip * (state.pose_world.position_world - before);
     plant = OmniDynamics{robot, state};
 
     const double now = time + 0.005;
@@ -131,13 +130,13 @@ TEST(Tracker, CompensatesSlowMotors) {
   EXPECT_LT(with.rms_error, 0.7 * without.rms_error);
 }
 
-// A slip of 10 % of the speed turns round the circle with the velocity; the observer's disturbance follows it
-// late.
+// A wheel slip of 10 % of the speed turns round the circle with the velocity; the observer's disturbance
+// follows it late.
 TEST(Tracker, CopesWithSlip) {
   LoopOptions options;
-  options.slip = 0.1;
+  options.wheel_slip = 0.1;
   const LoopResult result = run_loop(TrackerParameters{}, circle(HeadingProfile{0.0}), options);
-  print("10 % slip", result);
+  print("10 % wheel slip", result);
   EXPECT_LT(result.largest_error, 0.06);
 }
 

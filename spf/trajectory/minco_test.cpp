@@ -23,9 +23,9 @@ struct Problem {
   Eigen::VectorXd durations;
 };
 
-FlatState draw_state(RandomStream& random, double place) {
+FlatState draw_state(RandomStream& random, double x) {
   FlatState state;
-  state.position_world = Eigen::Vector2d{place, 0.0} + 0.5 * random.normal2();
+  state.position_world = Eigen::Vector2d{x, 0.0} + 0.5 * random.normal2();
   state.velocity_world = random.normal2();
   state.acceleration_world = random.normal2();
   return state;
@@ -328,7 +328,7 @@ TEST(Minco, GradientByDurationsAndTailMatchesCentralDifferences) {
   }
 }
 
-TEST(Minco, DescentFindsTheBestTimeAndPlaceOfWaypoints) {
+TEST(Minco, DescentFindsTheBestTimeAndPositionOfWaypoints) {
   // Rest to rest over a distance D at w per second: 720 D^2 / T^5 + w T is least at T = (3600 D^2 / w)^(1/6).
   // Waypoints that are free in position and time cannot beat the single quintic, and can lie on it.
   constexpr double kDistance = 3.0;

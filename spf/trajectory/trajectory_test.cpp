@@ -106,10 +106,10 @@ TEST(Trajectory, MovesAtItsStartAndAtItsEnd) {
 }
 
 TEST(Trajectory, StandingStaysInPlace) {
-  const Eigen::Vector2d place{1.5, -2.0};
-  const Trajectory trajectory = Trajectory::standing(place, 4.0, 3.0, HeadingProfile{0.7});
+  const Eigen::Vector2d position{1.5, -2.0};
+  const Trajectory trajectory = Trajectory::standing(position, 4.0, 3.0, HeadingProfile{0.7});
   for (const double time : {0.0, 4.0, 5.5, 7.0, 100.0}) {
-    EXPECT_EQ(trajectory.state(time).position_world, place);
+    EXPECT_EQ(trajectory.state(time).position_world, position);
     EXPECT_EQ(trajectory.state(time).velocity_world, Eigen::Vector2d::Zero());
   }
   EXPECT_EQ(trajectory.start_time(), 4.0);

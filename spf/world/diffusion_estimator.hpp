@@ -53,7 +53,7 @@ struct DiffusionEvidence {
   [[nodiscard]] DiffusionFactors solve(const DiffusionFactors& prior, double duration) const;
 };
 
-/// What obstacles of this place are like: what fits all of those that moved. It is the prior of the next one,
+/// What obstacles of this scene are like: what fits all of those that moved. It is the prior of the next one,
 /// which is seen for a few seconds only in a crowd. The priors of the parameters count as kPriorTime of it.
 class DiffusionPopulation {
  public:

@@ -14,7 +14,7 @@ struct ObstacleTrack {
   double cross_covariance = 0.0;    ///< [m^2/s] of position and velocity, per axis
   double position_diffusion = 0.0;  ///< [m^2/s] growth of the position variance: white velocity noise
   double velocity_diffusion = 0.0;  ///< [(m/s)^2/s] growth of the velocity variance: random-walk velocity
-  double stood = 0.0;               ///< [s] for so long it has been seen to stand in one place
+  double stood = 0.0;               ///< [s] for so long it has been seen to stand still
 
   /// Standard deviation per axis after `ahead` seconds [m]:
   /// sigma^2 = P + 2 C ahead + V ahead^2 + Dp ahead + Dv ahead^3 / 3; ahead < 0 counts as 0.

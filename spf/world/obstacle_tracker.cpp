@@ -102,7 +102,7 @@ void ObstacleTracker::begin_track(std::size_t slot, const Detection& detection, 
   Memory memory;
   memory.last_seen = time;
   memory.still_since = time;
-  memory.place = detection.position_world;
+  memory.stood_at = detection.position_world;
   memory.diffusion = DiffusionEstimator{parameters_.diffusion, population_.prior()};
   const double sigma = std::max(detection.position_sigma, parameters_.least_sigma);
   ObstacleTrack track;
@@ -151,7 +151,7 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
     if (time - memory.last_change > kOneEvent) memory.diffusion.restart();
     memory.last_change = time;
     memory.still_since = time;
-    memory.place = detection.position_world;
+    memory.stood_at = detection.position_world;
     memory.cusum.setZero();
     // An obstacle that turned round has changed its velocity by up to twice its speed.
     const double speed = std::max(parameters_.initial_speed, 2.0 * track.state.velocity_world.norm());
@@ -186,11 +186,11 @@ void ObstacleTracker::correct(ObstacleTrack& track, Memory& memory, const Detect
 
 void ObstacleTracker::watch_standing(ObstacleTrack& track, Memory& memory, const Detection& detection,
                                      double time) const {
-  const double moved = (track.state.position_world - memory.place).norm();
+  const double moved = (track.state.position_world - memory.stood_at).norm();
   const double speed = track.state.velocity_world.norm();
   const bool starts = speed > std::max(parameters_.still_speed, 3.0 * std::sqrt(track.velocity_variance));
   if (starts || moved > std::max(parameters_.still_distance, 3.0 * detection.position_sigma)) {
-    memory.place = track.state.position_world;
+    memory.stood_at = track.state.position_world;
     memory.still_since = time;
   }
   track.stood = time - memory.still_since;

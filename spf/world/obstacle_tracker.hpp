@@ -18,7 +18,7 @@ struct ObstacleTrackerParameters {
   double timeout = 2.0;        ///< [s] a track unseen for longer is dropped
   double initial_speed = 1.0;  ///< [m/s] standard deviation per axis of the velocity after a single detection
   double least_sigma = 1e-4;   ///< [m] positions are never taken as more exact
-  double still_distance = 0.15;  ///< [m] what stays this near to a place stands there ...
+  double still_distance = 0.15;  ///< [m] what stays this near to a position stands there ...
   double still_speed = 0.2;      ///< [m/s] ... unless it is faster, as far as its velocity is known
   DiffusionParameters diffusion;
 
@@ -69,10 +69,10 @@ class ObstacleTracker {
  private:
   /// The private part of a track; memories_[k] belongs to tracks_[k].
   struct Memory {
-    double last_seen = 0.0;                           // [s]
-    double last_change = -1e9;                        // [s]
-    double still_since = 0.0;                         // [s]
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // [m] of the track then
+    double last_seen = 0.0;                              // [s]
+    double last_change = -1e9;                           // [s]
+    double still_since = 0.0;                            // [s]
+    Eigen::Vector2d stood_at = Eigen::Vector2d::Zero();  // [m] of the track then
     Eigen::Vector2d cusum =
         Eigen::Vector2d::Zero();  // cusum: discounted sum of innovations, each over its standard deviation
     DiffusionEstimator diffusion;

@@ -274,7 +274,7 @@ TEST(ObstacleTracker, HoldsABoundedNumberOfTracks) {
   EXPECT_TRUE(tracker.tracks().empty());
 }
 
-TEST(ObstacleTracker, RefusesPlacesAndSpeedsBeyondAllNumbers) {
+TEST(ObstacleTracker, RefusesPositionsAndSpeedsBeyondAllNumbers) {
   ObstacleTracker tracker;
   Observation observation;
   observation.detections = {{1, {1e300, 0.0}, {}, 0.3, 0.0},

@@ -362,14 +362,14 @@ TEST(OccupancyMap, KnowsDistancesBetweenSurfacesBetterThanByInterpolation) {
       map.add_box({-3.0, -3.0}, {3.0, middle - half});
     }
     for (int i = 0; i < 50; ++i) {
-      const Eigen::Vector2d place{random.uniform(-0.1, 0.1), middle + random.uniform(-0.1, 0.1)};
+      const Eigen::Vector2d point{random.uniform(-0.1, 0.1), middle + random.uniform(-0.1, 0.1)};
       const double expected = pillars
-                                  ? std::min((place - Eigen::Vector2d{0.0, middle + half + 0.075}).norm(),
-                                             (place - Eigen::Vector2d{0.0, middle - half - 0.075}).norm()) -
+                                  ? std::min((point - Eigen::Vector2d{0.0, middle + half + 0.075}).norm(),
+                                             (point - Eigen::Vector2d{0.0, middle - half - 0.075}).norm()) -
                                         0.075
-                                  : half - std::fabs(place.y() - middle);
-      worst = std::max(worst, std::fabs(map.exact_distance(place) - expected));
-      worst_interpolated = std::max(worst_interpolated, std::fabs(map.distance(place) - expected));
+                                  : half - std::fabs(point.y() - middle);
+      worst = std::max(worst, std::fabs(map.exact_distance(point) - expected));
+      worst_interpolated = std::max(worst_interpolated, std::fabs(map.distance(point) - expected));
     }
   }
   EXPECT_LT(worst, 0.012);
@@ -417,11 +417,11 @@ TEST(OccupancyMap, HoldsRectanglesThatAreTurned) {
     straight.add_box({-0.5, -1.0}, {1.5, 0.3});
     straight.add_border({-3.0, -3.0}, {3.0, 3.0});
     for (int i = 0; i < 200; ++i) {
-      const Eigen::Vector2d place = draw_position(random, 3.0);
-      const Eigen::Vector2d here = frame.position_world + turn * place;
+      const Eigen::Vector2d position = draw_position(random, 3.0);
+      const Eigen::Vector2d here = frame.position_world + turn * position;
       if (here.lpNorm<Eigen::Infinity>() > 5.9) continue;
       // Interpolation beside a corner may read up to resolution^2 / (4 d) too much, inside a ridge likewise.
-      EXPECT_NEAR(map.distance(here), straight.distance(place), 0.06) << here.transpose();
+      EXPECT_NEAR(map.distance(here), straight.distance(position), 0.06) << here.transpose();
     }
   }
   OccupancyMap map = map_of(6.0);

@@ -1,4 +1,4 @@
-// What a robot tells of a narrow place ahead on its way, so that robots from both sides take turns. Frame:
+// What a robot tells of a narrow passage ahead on its path, so that robots from both sides take turns. Frame:
 // world.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace spf {
 
-/// A straight stretch of a robot's way on which two robots cannot pass each other, and which it is about to
+/// A straight stretch of a robot's path on which two robots cannot pass each other, and which it is about to
 /// use.
 struct PassageClaim {
   Eigen::Vector2d entry_world = Eigen::Vector2d::Zero();  ///< [m] where it begins

@@ -16,10 +16,10 @@ struct Peer {
   double received_time = 0.0;   ///< [s]
   bool expired = false;  ///< the message is too old: the peer is a growing disc at its last known position
   double growth = 0.0;   ///< [m] added to the radius of an expired peer
-  double stood = 0.0;    ///< [s] for so long it has stood in one place, stopped or arrived
+  double stood = 0.0;    ///< [s] for so long it has stood still, stopped or arrived
   Shared<Trajectory> trajectory{Trajectory{}};
-  /// To a narrow place on its way; null: none. Part of the message that `trajectory` is part of, and lives as
-  /// long.
+  /// The narrow passage ahead that the peer claims; null: none. Owned, like `trajectory`, by the peer's last
+  /// message: valid as long as that.
   const PassageClaim* claim = nullptr;
 
   [[nodiscard]] Rank rank() const { return {priority, robot_id}; }

@@ -48,8 +48,8 @@ void PeerTable::watch_standing(Entry& entry, bool is_new, double now) {
   Peer& peer = entry.peer;
   const Eigen::Vector2d here = peer.position(now);
   const bool stands = peer.state == PeerState::stopped || peer.state == PeerState::arrived;
-  if (is_new || !stands || now < entry.still_since || (here - entry.place).norm() > kStill * peer.radius) {
-    entry.place = here;
+  if (is_new || !stands || now < entry.still_since || (here - entry.stood_at).norm() > kStill * peer.radius) {
+    entry.stood_at = here;
     entry.still_since = now;
   }
   peer.stood = now - entry.still_since;

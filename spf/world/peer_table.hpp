@@ -85,7 +85,7 @@ class PeerTable {
     std::uint32_t sequence = 0;
     double expiry_time = 0.0;  // [s] as the message said, at most `silence` after its arrival
     double still_since = 0.0;  // [s]
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // [m] of the peer then
+    Eigen::Vector2d stood_at = Eigen::Vector2d::Zero();  // [m] of the peer then
   };
 
   [[nodiscard]] MessageVerdict judge(const HeardMessage& heard, double now) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/segment.hpp"
+
 namespace spf {
 
 PolygonDistances::PolygonDistances(const GridFrame& frame, const std::vector<Eigen::Vector2d>& corners,
@@ -26,7 +28,6 @@ PolygonDistances::PolygonDistances(const GridFrame& frame, const std::vector<Eig
 /// Piece by piece, since the box around a long slanting side holds mostly nodes that are far from it.
 void PolygonDistances::enter_side(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   const Eigen::Vector2d along = to - from;
-  const double squared_length = along.squaredNorm();
   const double longest = reach_ + frame_.resolution;
   // Only what lies near the grid matters, however far a side goes.
   const double most = 4.0 * (frame_.width + frame_.height);
@@ -45,11 +46,9 @@ void PolygonDistances::enter_side(const Eigen::Vector2d& from, const Eigen::Vect
     const Eigen::Vector2i last = frame_.nearest_node(last_corner).cwiseMin(high_);
     for (int j = first.y(); j <= last.y(); ++j)
       for (int i = first.x(); i <= last.x(); ++i) {
-        const Eigen::Vector2d offset = frame_.node_position(i, j) - from;
-        const double share =
-            squared_length > 0.0 ? std::clamp(offset.dot(along) / squared_length, 0.0, 1.0) : 0.0;
         float& distance = distances_[slot(i, j)];
-        distance = std::min(distance, static_cast<float>((offset - share * along).norm()));
+        distance = std::min(distance,
+                            static_cast<float>(distance_to_segment(frame_.node_position(i, j), {from, to})));
       }
   }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/plane.hpp"
+
 namespace spf {
 namespace {
 
@@ -26,7 +28,7 @@ bool interpolated_by_pair(const Eigen::Vector2d& from_sensor, const std::vector<
   const Eigen::Vector2d end = beams[index].length * beams[index].direction_world;
   const Eigen::Vector2d along = beams[other].length * beams[other].direction_world - end;
   const Eigen::Vector2d to_point = from_sensor - end;
-  const double beside = to_point.x() * along.y() - to_point.y() * along.x();
+  const double beside = cross(to_point, along);
   return std::fabs(beside) < tolerance * along.norm() && to_point.norm() < 2.0 * along.norm();
 }
 
@@ -36,8 +38,7 @@ bool contradicts(const Eigen::Vector2d& hit_from_sensor, const std::vector<Sense
                  std::size_t index, double resolution) {
   const SensedBeam& beam = beams[index];
   const double along = hit_from_sensor.dot(beam.direction_world);
-  const double beside =
-      hit_from_sensor.x() * beam.direction_world.y() - hit_from_sensor.y() * beam.direction_world.x();
+  const double beside = cross(hit_from_sensor, beam.direction_world);
   if (std::fabs(beside) > 0.125 * resolution || beam.length < along + resolution) return false;
   // index - 1 of the first beam wraps to a number past the end.
   return !interpolated_by_pair(hit_from_sensor, beams, index, index + 1, 0.5 * resolution) &&
@@ -199,8 +200,8 @@ void SensedLayer::enter_crossing(Tile& tile, const Eigen::Vector2i& cell, const 
   if (log_odds > 0) {
     bool contradicted = false;
     for_hits(tile, slot, tile.hits[slot], [&](const Hit& hit) {
-      const Eigen::Vector2d place = frame_.node_position(hit.i, hit.j) + hit.offset.cast<double>();
-      contradicted = contradicts(place - sensor_world, beams, index, frame_.resolution);
+      const Eigen::Vector2d position = frame_.node_position(hit.i, hit.j) + hit.offset.cast<double>();
+      contradicted = contradicts(position - sensor_world, beams, index, frame_.resolution);
       return !contradicted;
     });
     if (!contradicted) return;

@@ -1,5 +1,5 @@
 // What a range sensor has seen, on a grid: log odds per cell, where in each cell beams have ended, and the
-// distance from every node to the nearest such place. Part of OccupancyMap. Frame: world.
+// distance from every node to the nearest such point. Part of OccupancyMap. Frame: world.
 #pragma once
 
 #include <Eigen/Core>

@@ -5,7 +5,7 @@
 namespace spf {
 namespace {
 
-constexpr double kTrackStands = 3.0;    // [s] in one place
+constexpr double kTrackStands = 3.0;    // [s] at one position
 constexpr double kPeerStands = 5.0;     // [s] likewise: a robot that gives way goes on soon
 constexpr double kArrivedWait = 30.0;   // [s] at least, for who says that it stays
 constexpr double kLongestWait = 600.0;  // [s]

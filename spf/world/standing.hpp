@@ -1,4 +1,4 @@
-// What stands: people, things and peers that have been in one place for some time. Who plans a way decides
+// What stands: people, things and peers that have not moved for some time. Who plans a path decides
 // whether to go round them or to wait, and how near to them to go. Frame: world.
 #pragma once
 
@@ -28,10 +28,10 @@ void find_standing(const WorldSnapshot& world, std::vector<StandingDisc>& discs)
 /// Leaves the nearest kMostStanding.
 void keep_nearest(const Eigen::Vector2d& here_world, std::vector<StandingDisc>& discs);
 
-/// Whether a disc is among others, at about the same place.
+/// Whether a disc is among others, at about the same position.
 [[nodiscard]] bool known(const std::vector<StandingDisc>& discs, const StandingDisc& disc);
 
-/// Whether a way would be weighed anew: something came, went, moved, or has stood much longer.
+/// Whether a path would be weighed anew: something came, went, moved, or has stood much longer.
 [[nodiscard]] bool differ(const std::vector<StandingDisc>& before, const std::vector<StandingDisc>& now);
 
 }  // namespace spf

@@ -21,7 +21,7 @@ struct TrajectoryMessage {
   double position_sigma =
       0.0;  ///< [m] how far the robot may be from its trajectory (own pose and tracking error)
   PeerState state = PeerState::stopped;
-  std::optional<PassageClaim> claim;  ///< to a narrow place on its way
+  std::optional<PassageClaim> claim;  ///< to a narrow passage on its path
   Trajectory trajectory;              ///< world, absolute time
 };
 

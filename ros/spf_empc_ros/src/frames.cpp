@@ -57,8 +57,8 @@ Converted<PlacedPose> placed_pose(const tf2::BufferCore& transforms, const std_m
   return {PlacedPose{compose(*outer, *inner), found->age, found->by_itself}, {}};
 }
 
-Converted<geometry_msgs::Pose> Frames::place_in_space(const std::string& frame, const std::string& in,
-                                                      const ros::Time& time) const {
+Converted<geometry_msgs::Pose> Frames::pose_in_space(const std::string& frame, const std::string& in,
+                                                     const ros::Time& time) const {
   using Result = Converted<geometry_msgs::Pose>;
   const Converted<Placement> found = placement(buffer_, frame, in, time);
   if (!found) return Result::refused(found.refusal);
@@ -66,9 +66,9 @@ Converted<geometry_msgs::Pose> Frames::place_in_space(const std::string& frame, 
   return {found->pose, {}};
 }
 
-Converted<spf::Pose2> Frames::place(const std::string& frame, const std::string& in,
-                                    const ros::Time& time) const {
-  const Converted<geometry_msgs::Pose> found = place_in_space(frame, in, time);
+Converted<spf::Pose2> Frames::planar_pose(const std::string& frame, const std::string& in,
+                                          const ros::Time& time) const {
+  const Converted<geometry_msgs::Pose> found = pose_in_space(frame, in, time);
   if (!found) return Converted<spf::Pose2>::refused(found.refusal);
   return from_message(*found);
 }

@@ -34,7 +34,7 @@ GoalServer::GoalServer(ros::NodeHandle node, const ros::NodeHandle& own, const R
       host_{host},
       frames_{frames},
       refuse_{std::move(refuse)},
-      patience_{config.file.host.goal_patience},
+      goal_timeout_{config.file.host.goal_patience},
       supervisor_{config.agent, config.file.host},
       memory_{own, store, config.frame, config.file.host.goal_memory},
       server_{node, "move_base", [this](Handle handle) { on_action_goal(std::move(handle)); },
@@ -58,7 +58,7 @@ void GoalServer::take_up_what_was_left() {
 }
 
 void GoalServer::reconfigure(const spf::AgentParameters& agent, const spf::host::HostParameters& host) {
-  patience_ = host.goal_patience;
+  goal_timeout_ = host.goal_patience;
   supervisor_.reconfigure(agent, host);
 }
 
@@ -67,9 +67,9 @@ void GoalServer::reconfigure(const spf::AgentParameters& agent, const spf::host:
 Converted<spf::host::Goal> GoalServer::in_fleets_frame(const geometry_msgs::PoseStamped& pose) const {
   std_msgs::Header header = pose.header;
   if (header.frame_id.empty()) header.frame_id = frame_;
-  const Converted<spf::Pose2> place = frames_.pose(header, pose.pose, frame_);
-  if (!place) return Converted<spf::host::Goal>::refused(place.refusal);
-  return {spf::host::Goal{place->position_world, place->heading}, {}};
+  const Converted<spf::Pose2> converted = frames_.pose(header, pose.pose, frame_);
+  if (!converted) return Converted<spf::host::Goal>::refused(converted.refusal);
+  return {spf::host::Goal{converted->position_world, converted->heading}, {}};
 }
 
 void GoalServer::on_action_goal(Handle handle) {
@@ -108,7 +108,7 @@ bool GoalServer::pursue(const Converted<spf::host::Goal>& goal, std::optional<Ha
   take_away(GoalOutcome::preempted);
   handle_ = std::move(handle);
   memory_.keep({*goal, handle_ ? handle_->getGoalID() : actionlib_msgs::GoalID{}});
-  supervisor_.begin(handle_ ? patience_ : GoalSupervisor::kForEver);
+  supervisor_.begin(handle_ ? goal_timeout_ : GoalSupervisor::kForEver);
   return true;
 }
 
@@ -132,7 +132,7 @@ void GoalServer::step(double now) {
 void GoalServer::conclude() {
   const GoalOutcome outcome = supervisor_.outcome();
   std::string text = to_string(outcome);
-  if (outcome == GoalOutcome::no_path) text += " for " + spf::to_text(patience_) + " s";
+  if (outcome == GoalOutcome::no_path) text += " for " + spf::to_text(goal_timeout_) + " s";
   if (given_up(outcome)) {
     host_.planner().cancel();
     ROS_WARN("goal: %s", text.c_str());  // the planner's diagnostics show it too, until the next goal

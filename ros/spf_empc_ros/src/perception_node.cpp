@@ -34,7 +34,7 @@ void PerceptionNode::refuse(const char* what, const std::string& why, bool harml
 
 void PerceptionNode::on_scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
   const Converted<geometry_msgs::Pose> scanner =
-      frames_.place_in_space(scan->header.frame_id, config_.base_frame, scan->header.stamp);
+      frames_.pose_in_space(scan->header.frame_id, config_.base_frame, scan->header.stamp);
   if (!scanner) return refuse("scan", scanner.refusal);
   Converted<spf::host::DriverScan> driver = driver_scan(*scan, *scanner);
   if (!driver) return refuse("scan", driver.refusal);
@@ -61,7 +61,7 @@ void PerceptionNode::check_sight(double range) {
 
 void PerceptionNode::on_obstacles(const spf_empc_msgs::ObstacleTracks::ConstPtr& tracks) {
   const Converted<spf::Pose2> frame =
-      frames_.place(tracks->header.frame_id, config_.frame, tracks->header.stamp);
+      frames_.planar_pose(tracks->header.frame_id, config_.frame, tracks->header.stamp);
   if (!frame) return refuse("obstacles", frame.refusal);
   const Converted<std::vector<spf::Detection>> seen = from_message(*tracks, *frame);
   if (!seen) return refuse("obstacles", seen.refusal);

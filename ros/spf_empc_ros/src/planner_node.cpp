@@ -205,7 +205,7 @@ void PlannerNode::publish_status(const ros::Time& now, double plan_ms) {
   message.robot_id = static_cast<std::uint32_t>(config_.robot_id);
   message.state = static_cast<std::uint8_t>(status.state);
   message.reason = status.reason;
-  message.culprit = status.blocking_id;
+  message.blocking_id = status.blocking_id;
   message.has_goal = host_.planner().goal().has_value();
   if (host_.planner().goal()) {
     message.goal.x = host_.planner().goal()->position_world.x();
@@ -272,7 +272,7 @@ void PlannerNode::report(const ros::Time& now) {
   if (planner.agent() != nullptr)
     values.emplace_back("tracks", std::to_string(planner.agent()->tracks().size()));
   const int blocking_id = planner.status().blocking_id;
-  if (blocking_id >= 0) values.emplace_back("culprit", std::to_string(blocking_id));
+  if (blocking_id >= 0) values.emplace_back("blocking_id", std::to_string(blocking_id));
   if (!refusals_.last().empty()) values.emplace_back("last refusal", refusals_.last());
   diagnostics_.report(now, health, values);
 }

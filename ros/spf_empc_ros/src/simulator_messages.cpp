@@ -7,6 +7,7 @@
 #include "sim/geometry.hpp"
 #include "sim/simulation.hpp"
 #include "spf/math/polygon.hpp"
+#include "spf/math/segment.hpp"
 #include "spf_empc_ros/color.hpp"
 #include "spf_empc_ros/conversions.hpp"
 
@@ -80,9 +81,8 @@ void paint_shapes(const Scenario& scenario, CellPainter& painter, double resolut
                   [&](const Eigen::Vector2d& position) { return (position - disc.center).norm(); });
   // A thin wall covers no centre: its cells are those that it may cross.
   for (const Segment& wall : scenario.walls)
-    painter.paint(
-        wall.from.cwiseMin(wall.to), wall.from.cwiseMax(wall.to), resolution * std::sqrt(0.5),
-        [&](const Eigen::Vector2d& position) { return spf::sim::distance_to_segment(position, wall); });
+    painter.paint(wall.from.cwiseMin(wall.to), wall.from.cwiseMax(wall.to), resolution * std::sqrt(0.5),
+                  [&](const Eigen::Vector2d& position) { return spf::distance_to_segment(position, wall); });
   for (const spf::sim::Polygon& polygon : scenario.polygons) {
     const Box bounds = bounds_of(polygon.corners);
     painter.paint(bounds.low, bounds.high, 0.0, [&](const Eigen::Vector2d& position) {
@@ -153,7 +153,7 @@ class WorldMarkers {
   visualization_msgs::MarkerArray array_;
 };
 
-void add_place(const Scenario& scenario, WorldMarkers& markers) {
+void add_static_scene(const Scenario& scenario, WorldMarkers& markers) {
   constexpr double kHeight = 0.5;  // [m]
   int id = 0;
   for (const Box& box : scenario.boxes) {
@@ -325,7 +325,7 @@ nav_msgs::OccupancyGrid map_message(const Scenario& scenario, double resolution,
 
 visualization_msgs::MarkerArray world_markers(const World& world, const Stamp& stamp) {
   WorldMarkers markers{stamp};
-  add_place(world.scenario(), markers);
+  add_static_scene(world.scenario(), markers);
   for (std::size_t i = 0; i < world.robots().size(); ++i) add_robot(world, i, markers);
   const ros::Duration gone_after{0.5};
   visualization_msgs::MarkerArray result;
@@ -362,7 +362,7 @@ spf_empc_msgs::TrialOutcome outcome_message(const spf::sim::TrialResult& result,
   } else if (result.outcome == spf::sim::TrialOutcome::success) {
     message.outcome = Message::SUCCESS;
   } else {
-    message.outcome = Message::OVERTIME;
+    message.outcome = Message::TIMEOUT;
     message.cause = "not at their goals: robots " + away;
   }
   return message;

@@ -32,7 +32,7 @@ void Pace::start(double time, double wall) {
 
 void Pace::reached(double time, double wall) {
   const double late = wall - due(time);
-  if (late <= kPatience) return;
+  if (late <= kTolerated) return;
   wall_ += late;
   lost_ += late;
   ++shifts_;

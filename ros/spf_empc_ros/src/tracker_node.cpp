@@ -98,7 +98,7 @@ void TrackerNode::on_planner(const spf_empc_msgs::RobotStatus& status) {
 /// As it comes from the driver, for the guard: by no other node.
 void TrackerNode::on_scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
   const Converted<geometry_msgs::Pose> scanner =
-      frames_.place_in_space(scan->header.frame_id, config_.base_frame, scan->header.stamp);
+      frames_.pose_in_space(scan->header.frame_id, config_.base_frame, scan->header.stamp);
   if (!scanner) return refuse("scan", scanner.refusal);
   Converted<spf::host::DriverScan> driver = driver_scan(*scan, *scanner);
   if (!driver) return refuse("scan", driver.refusal);
@@ -167,7 +167,7 @@ void TrackerNode::publish_status(const ros::Time& now, const spf::host::TrackerC
   message.plans_refused = host_.tracker().plans_refused();
   message.poses_refused = host_.localiser().poses_refused();
   message.guard_scale = command.guard.scale;
-  message.guard_way = command.guard.free_distance;
+  message.guard_free_distance = command.guard.free_distance;
   if (const spf::host::ScanGuard* guard = host_.tracker().guard())
     message.guard_stops = guard->counts().stops;
   status_.publish(message);

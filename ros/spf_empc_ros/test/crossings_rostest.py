@@ -48,8 +48,8 @@ class Crossings(ScannerAloneTest):
         meets = time.time() + UNTIL
 
         def path(now):
-            way = speed * (now - meets)
-            return meeting[0] + way * math.cos(turn), meeting[1] + way * math.sin(turn)
+            distance = speed * (now - meets)
+            return meeting[0] + distance * math.cos(turn), meeting[1] + distance * math.sin(turn)
         return self.least_gap(DISC, path, UNTIL + 4.0)
 
     def test_nobody_who_crosses_is_touched(self):

@@ -1,4 +1,4 @@
-"""A robot with a user who sends it to places by the action move_base, in a hall with a room that nothing leads into."""
+"""A robot with a user who sends it to goals by the action move_base, in a hall with a room that nothing leads into."""
 import math
 import unittest
 
@@ -45,11 +45,12 @@ class User:
 
     def __init__(self, robot):
         self.client = actionlib.SimpleActionClient("/robot%d/move_base" % robot.number, MoveBaseAction)
-        self.places = []  # of the feedback
+        self.positions = []  # of the feedback
 
-    def send(self, *place):
-        self.places = []
-        self.client.send_goal(goal_at(*place), feedback_cb=lambda f: self.places.append(f.base_position.pose.position))
+    def send(self, *position):
+        self.positions = []
+        self.client.send_goal(goal_at(*position),
+                              feedback_cb=lambda f: self.positions.append(f.base_position.pose.position))
 
     def result(self, seconds):
         """State and text once there is a result."""
@@ -87,7 +88,7 @@ class GoalsTest(unittest.TestCase):
         return math.hypot(self.robot.x - x, self.robot.y - y)
 
     def end_ahead(self):
-        """A place 6 m away, towards the middle of the free part of the hall."""
+        """A position 6 m away, towards the middle of the free part of the hall."""
         return (self.robot.x - 6.0 if self.robot.x > 0.0 else self.robot.x + 6.0), 0.0
 
     def under_way(self, seconds=15.0):

@@ -28,22 +28,22 @@ class Action(GoalsTest):
             self.assertEqual((state, text), (GoalStatus.SUCCEEDED, "reached"))
             self.assertLess(self.distance(x, y), 0.08)
             self.assertLess(angle_between(self.robot.heading, heading), 0.12)
-            self.assertGreater(len(self.user.places), 5)
-            self.assertLess(math.hypot(self.user.places[-1].x - x, self.user.places[-1].y - y), 0.5)
+            self.assertGreater(len(self.user.positions), 5)
+            self.assertLess(math.hypot(self.user.positions[-1].x - x, self.user.positions[-1].y - y), 0.5)
             self.assertTrue(wait_until(lambda: self.robot.status.reason == "arrived", 1.0), self.robot.status.reason)
 
     def test_gives_up_at_once_where_the_map_forbids_the_goal(self):
-        for place, reason in (((20.2, 0.0), "the goal is in a wall, or nearer to one than the robot goes"),
-                              ((80.0, 0.0), "the goal is off the map")):
+        for position, reason in (((20.2, 0.0), "the goal is in a wall, or nearer to one than the robot goes"),
+                                 ((80.0, 0.0), "the goal is off the map")):
             x, y = self.robot.x, self.robot.y
-            self.user.send(*place)
+            self.user.send(*position)
             state, text = self.user.result(3.0)
             self.assertEqual((state, text), (GoalStatus.ABORTED, reason))
             self.assertLess(self.distance(x, y), 0.02)
             self.assertTrue(wait_until(lambda: self.robot.status.goal_outcome == reason, 1.0))
             self.assertTrue(wait_until(lambda: ("robot0: planner", "gave up: " + reason) in self.world.diagnostics, 2.0))
 
-    def test_gives_up_when_no_path_has_led_there_for_its_patience(self):
+    def test_gives_up_when_no_path_has_led_there_for_its_timeout(self):
         client = dynamic_reconfigure.client.Client("/robot0/planner", timeout=10.0)
         client.update_configuration({"goal_patience": 2.0})
         begun = time.monotonic()

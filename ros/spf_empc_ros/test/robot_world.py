@@ -150,7 +150,7 @@ class Robot:
             self.odom.publish(message)
             self.last["odom"] = stamp.to_sec()
         if tick % 5 == 0 and self.localised and self.odom_frame != "map":
-            self.tell_place(stamp)
+            self.tell_odom_frame(stamp)
         if tick % 10 == 0 and self.scan_on:
             scan = free_scan(stamp, self.number, 360 if self.walkers else 90)
             self.meet_walkers(scan)
@@ -164,8 +164,8 @@ class Robot:
             self.last["obstacles"] = stamp.to_sec()
 
     def meet_walkers(self, scan):
-        for radius, place in self.walkers:
-            x, y = place(scan.header.stamp.to_sec())
+        for radius, position in self.walkers:
+            x, y = position(scan.header.stamp.to_sec())
             dx, dy = x - self.x, y - self.y
             for i, before in enumerate(scan.ranges):
                 angle = self.heading + scan.angle_min + i * scan.angle_increment
@@ -175,7 +175,7 @@ class Robot:
                     reading = along - math.sqrt(inside)
                     scan.ranges[i] = min(before, reading if reading < scan.range_max else float("inf"))
 
-    def tell_place(self, stamp):
+    def tell_odom_frame(self, stamp):
         """What a localisation tells: where the odometry's frame is in the map."""
         message = TransformStamped()
         message.header.stamp, message.header.frame_id = stamp, "map"

@@ -45,11 +45,11 @@ LONGEST = 1.0  # [s] after which no command is waited for
 
 
 def walkers(now):
-    """Eight people who walk up and down beside the robot's way."""
+    """Eight people who walk up and down beside the robot's path."""
     length = 2.0 * HALF_LENGTH - 4.0
     for number in range(8):
-        way = (number * length / 4.0 + (0.4 + 0.1 * number) * now) % (2.0 * length)
-        yield (abs(way - length) - 0.5 * length, 1.6 if number % 2 else -1.6)
+        distance = (number * length / 4.0 + (0.4 + 0.1 * number) * now) % (2.0 * length)
+        yield (abs(distance - length) - 0.5 * length, 1.6 if number % 2 else -1.6)
 
 
 class Scanner:

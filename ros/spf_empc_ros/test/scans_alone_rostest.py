@@ -23,7 +23,7 @@ class ScansAlone(ScannerAloneTest):
         meeting = (robot.x + 7.0 * ahead, robot.y + 0.1)
         walker = lambda now: (meeting[0] - ahead * SPEED * (now - begun), meeting[1])
         robot.walkers = [(WALKER, walker)]
-        errors = []  # of the place [m] and the velocity [m/s]
+        errors = []  # of the position [m] and the velocity [m/s]
 
         def on_tracks(message):
             x, y = walker(message.header.stamp.to_sec())
@@ -44,7 +44,7 @@ class ScansAlone(ScannerAloneTest):
         subscriber.unregister()
         self.assertGreater(len(errors), 10)
         errors.sort()
-        print("least gap %.2f m, %d tracks, median place error %.3f m" % (least[0], len(errors), errors[len(errors) // 2][0]))
+        print("least gap %.2f m, %d tracks, median position error %.3f m" % (least[0], len(errors), errors[len(errors) // 2][0]))
         self.assertLess(errors[len(errors) // 2][0], 0.15)
         self.assertLess(sorted(velocity for _, velocity in errors)[len(errors) // 2], 0.3)
         self.assertGreater(least[0], 0.02)

@@ -17,7 +17,7 @@ using spf::sim::World;
 
 const Stamp kStamp{"map", ros::Time{7, 250000000}};
 
-Scenario place_with_shapes() {
+Scenario scenario_with_shapes() {
   Scenario scenario;
   scenario.border = spf::sim::Box{{-4.0, -3.0}, {6.0, 3.0}};
   scenario.boxes = {{{0.02, 0.01}, {1.03, 0.98}}};
@@ -39,7 +39,7 @@ bool occupied_at(const nav_msgs::OccupancyGrid& grid, const Eigen::Vector2d& pos
 }
 
 TEST(MapMessage, ShowsTheKnownShapesToHalfACell) {
-  const Scenario scenario = place_with_shapes();
+  const Scenario scenario = scenario_with_shapes();
   const nav_msgs::OccupancyGrid grid = map_message(scenario, 0.05, kStamp);
   EXPECT_EQ(grid.header.frame_id, "map");
   EXPECT_EQ(grid.info.width, 200U);
@@ -55,7 +55,7 @@ TEST(MapMessage, ShowsTheKnownShapesToHalfACell) {
 }
 
 TEST(MapMessage, GivesARobotTheDistancesOfTheTruth) {
-  const Scenario scenario = place_with_shapes();
+  const Scenario scenario = scenario_with_shapes();
   const auto map = from_message(map_message(scenario, 0.05, kStamp), "map", {});
   ASSERT_TRUE(map) << map.refusal;
   for (const Eigen::Vector2d& position :
@@ -63,7 +63,7 @@ TEST(MapMessage, GivesARobotTheDistancesOfTheTruth) {
     double truth = std::min({spf::sim::depth_inside(position, *scenario.border),
                              spf::sim::distance_to_box(position, scenario.boxes[0]),
                              (position - scenario.discs[0].center).norm() - scenario.discs[0].radius,
-                             spf::sim::distance_to_segment(position, scenario.walls[0])});
+                             spf::distance_to_segment(position, scenario.walls[0])});
     truth = std::min(truth, map->max_distance());
     // A cell's corner stands out by at most its half diagonal, a wall's cells by one more.
     EXPECT_NEAR(map->distance(position), truth, 0.05 * 1.5) << position.transpose();
@@ -71,14 +71,14 @@ TEST(MapMessage, GivesARobotTheDistancesOfTheTruth) {
 }
 
 TEST(MapMessage, IsOnlyTheBorderWhenTheMapIsToBeSensed) {
-  Scenario scenario = place_with_shapes();
+  Scenario scenario = scenario_with_shapes();
   scenario.simulation.sensing.map = spf::sim::MapKnowledge::sensed;
   const nav_msgs::OccupancyGrid grid = map_message(scenario, 0.05, kStamp);
   EXPECT_EQ(std::count(grid.data.begin(), grid.data.end(), 0), static_cast<long>(grid.data.size()));
 }
 
-TEST(MapMessage, HasRoomAroundAnOpenPlace) {
-  Scenario scenario = place_with_shapes();
+TEST(MapMessage, HasRoomAroundAnOpenScenario) {
+  Scenario scenario = scenario_with_shapes();
   scenario.border.reset();
   const nav_msgs::OccupancyGrid grid = map_message(scenario, 0.1, kStamp);
   EXPECT_LT(grid.info.origin.position.x, -10.0);
@@ -87,7 +87,7 @@ TEST(MapMessage, HasRoomAroundAnOpenPlace) {
 }
 
 TEST(OdometryMessage, CarriesPoseBodyMotionAndNoise) {
-  Scenario scenario = place_with_shapes();
+  Scenario scenario = scenario_with_shapes();
   scenario.simulation.pose_noise.position_sigma = 0.02;
   scenario.simulation.pose_noise.heading_sigma = 0.01;
   World world{scenario};
@@ -136,7 +136,7 @@ TEST(ObstaclesMessage, ComesBackAsTheDetectionsItWasMadeOf) {
 }
 
 TEST(GoalMessage, KeepsTheHeadingWhereAnyWillDo) {
-  Scenario scenario = place_with_shapes();
+  Scenario scenario = scenario_with_shapes();
   const auto any = from_message(goal_message(scenario.robots[0], kStamp).pose);
   EXPECT_EQ(any->position_world, scenario.robots[0].goal_world);
   EXPECT_NEAR(any->heading, 0.4, 1e-12);
@@ -155,7 +155,7 @@ TEST(OutcomeMessage, TellsHowATrialStandsAndEnds) {
   EXPECT_EQ(message.arrived, 1U);
   EXPECT_EQ(message.arrival_times, (std::vector<double>{12.5, -1.0}));
   message = outcome_message(result, true, kStamp);
-  EXPECT_EQ(message.outcome, Message::OVERTIME);
+  EXPECT_EQ(message.outcome, Message::TIMEOUT);
   EXPECT_NE(message.cause.find("robots 1"), std::string::npos) << message.cause;
   result.outcome = spf::sim::TrialOutcome::success;
   EXPECT_EQ(outcome_message(result, true, kStamp).outcome, Message::SUCCESS);

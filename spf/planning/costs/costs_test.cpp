@@ -168,7 +168,7 @@ TEST(Costs, FieldGradientWithGuidePointsHeldConstant) {
   EXPECT_LT(worst_error(weights), kTolerance);
 }
 
-TEST(Costs, TermOfTheCallersOwnGradientInPlaceAndTime) {
+TEST(Costs, TermOfTheCallersOwnGradientInPositionAndTime) {
   // A sinking ring that moves with absolute time, and pulls at all derivatives.
   const auto term = [](NodeSet& nodes) {
     for (int k = 0; k < nodes.size(); ++k) {

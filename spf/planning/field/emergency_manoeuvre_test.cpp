@@ -44,10 +44,10 @@ struct EmergencyScene {
   [[nodiscard]] double gap(const Trajectory& trajectory) const {
     double least = std::numeric_limits<double>::infinity();
     for (double ahead = 0.0; ahead <= kHorizon; ahead += 0.005) {
-      const Eigen::Vector2d place = trajectory.position(kTime + ahead);
+      const Eigen::Vector2d position = trajectory.position(kTime + ahead);
       for (const ObstacleTrack& track : tracks) {
         const Eigen::Vector2d centre = track.state.position_world + ahead * track.state.velocity_world;
-        least = std::min(least, (place - centre).norm() - robot.radius - track.state.radius);
+        least = std::min(least, (position - centre).norm() - robot.radius - track.state.radius);
       }
     }
     return least;
@@ -102,8 +102,8 @@ TEST(EmergencyManoeuvre, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
     scene.head.velocity_world =
         random.uniform(0.0, 1.0) * random.normal2().normalized() * scene.robot.max_speed;
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector2d place = random.uniform(0.9, 3.0) * random.normal2().normalized();
-      scene.add(place, -random.uniform(0.2, 0.6) * (place + 0.5 * random.normal2()).normalized());
+      const Eigen::Vector2d position = random.uniform(0.9, 3.0) * random.normal2().normalized();
+      scene.add(position, -random.uniform(0.2, 0.6) * (position + 0.5 * random.normal2()).normalized());
     }
     const EmergencyManoeuvre manoeuvre = scene.evade();
     const Trajectory& trajectory = manoeuvre.trajectory;
@@ -158,9 +158,9 @@ double least_gap_of_manoeuvres(const Eigen::Vector2d& obstacle_from, const Eigen
   for (int step = 0; step < 40; ++step) {
     const EmergencyManoeuvre manoeuvre = scene.evade(PlannerParameters{});
     for (int k = 0; k < 10; ++k) {
-      const Eigen::Vector2d place = manoeuvre.trajectory.position(kTime + 0.01 * k);
+      const Eigen::Vector2d position = manoeuvre.trajectory.position(kTime + 0.01 * k);
       const Eigen::Vector2d centre = scene.tracks[0].state.position_world + 0.01 * k * velocity;
-      least = std::min(least, (place - centre).norm() - 0.7);
+      least = std::min(least, (position - centre).norm() - 0.7);
     }
     scene.head = manoeuvre.trajectory.state(kTime + 0.1);
     scene.tracks[0].state.position_world += 0.1 * velocity;

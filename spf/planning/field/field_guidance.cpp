@@ -213,12 +213,6 @@ int FieldGuidance::side_changes(int track_id, double time) const {
   return recent;
 }
 
-int FieldGuidance::side_changes(double time) const {
-  int largest = 0;
-  for (const Memory& memory : memory_) largest = std::max(largest, side_changes(memory.track_id, time));
-  return largest;
-}
-
 double FieldGuidance::widening(int track_id, double time) const {
   const int beyond_first = std::max(0, side_changes(track_id, time) - 1);
   return 1.0 + std::min(kMaxWidening, kWideningPerChange * beyond_first);

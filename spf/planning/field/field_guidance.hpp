@@ -57,8 +57,6 @@ class FieldGuidance {
   void remember(int track_id, PassingSide side, double time);
   /// Side changes of one obstacle within the last seconds.
   [[nodiscard]] int side_changes(int track_id, double time) const;
-  /// Largest over all obstacles.
-  [[nodiscard]] int side_changes(double time) const;
   /// Factor on the threshold, above 1 after repeated side changes (the paper's engineering setting).
   [[nodiscard]] double widening(int track_id, double time) const;
 

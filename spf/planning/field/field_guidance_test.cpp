@@ -54,7 +54,7 @@ struct FieldGuidanceScene {
   }
 };
 
-TEST(FieldGuidance, FindsOneConflictPerObstacleInTheOrderOfTheWay) {
+TEST(FieldGuidance, FindsOneConflictPerObstacleInTheOrderOfThePath) {
   FieldGuidanceScene f;
   f.run_at(0.0);
   f.add_region(7, {4.5, 0.2}, {0.0, 0.0});
@@ -171,7 +171,7 @@ TEST(FieldGuidance, RemembersSidesAndWidensAfterChanges) {
   for (int i = 0; i < 6; ++i)
     guidance.remember(4, i % 2 == 0 ? PassingSide::right : PassingSide::left, 2.0 + 0.1 * i);
   EXPECT_NEAR(guidance.widening(4, 2.5), 1.5, 1e-12);  // capped
-  EXPECT_EQ(guidance.side_changes(2.5), 8);
+  EXPECT_EQ(guidance.side_changes(4, 2.5), 8);
   EXPECT_EQ(guidance.side_changes(4, 10.0), 0);  // forgotten
   EXPECT_EQ(guidance.remembered_side(4, 10.0), 0);
 }

@@ -310,7 +310,6 @@ void FieldPlanner::add_heading(const PlanRequest& request, Trajectory& trajector
 }
 
 void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, PlanResult& result) {
-  result.stats.searches = finder_.searches();
   if (best_.valid) {
     result.outcome = PlanOutcome::success;
     result.action = PlanAction::follow;
@@ -332,7 +331,6 @@ void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, Pla
     if (request.keep_candidates)
       result.candidates.push_back({Candidate::Kind::brake, 0.0, 0.0, true, result.trajectory});
   }
-  result.stats.side_changes = guidance_.side_changes(request.time);
 }
 
 }  // namespace spf

@@ -1,5 +1,5 @@
 // The paper's planner (eq. 9-13, Fig. 4) and, by DynamicModel, its baselines ES2 and ES2*: seeds along the
-// guide path, both sides of every obstacle in conflict, L-BFGS over MINCO, and the common clearance check.
+// guide, both sides of every obstacle in conflict, L-BFGS over MINCO, and the common clearance check.
 // Frame: world.
 #pragma once
 

@@ -57,7 +57,7 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
   // The obstacle may be here soon: a trajectory has to leave the regions nearly as fast as possible.
   if (in_fields_) {
     const double stay = check_.time_in_fields(trajectory, request.time, request.time + kPrimitiveHorizon);
-    threat.in_field = stay > way_out_.time_in_fields + kLinger;
+    threat.in_field = stay > escape_.time_in_fields + kLinger;
     threat.conflict = threat.conflict || threat.in_field;
     threat.urgent = threat.urgent || threat.in_field;
   }
@@ -65,11 +65,11 @@ FieldReplanning::Threat FieldReplanning::threat_to(const Trajectory& trajectory,
 }
 
 /// Finds the quickest way out for a robot in a danger region.
-void FieldReplanning::find_way_out(const PlanRequest& request) {
+void FieldReplanning::find_escape(const PlanRequest& request) {
   in_fields_ = replanning_.retreat && check_.field_clearance(request.head.position_world) < 0.0;
   if (!in_fields_) return;
-  way_out_ = best_emergency_manoeuvre(request.head, request.heading, request.time,
-                                      request.time + kPrimitiveHorizon, check_, robot_);
+  escape_ = best_emergency_manoeuvre(request.head, request.heading, request.time,
+                                     request.time + kPrimitiveHorizon, check_, robot_);
 }
 
 bool FieldReplanning::plan_due(const PlanRequest& request, const Threat& threat) const {
@@ -88,7 +88,7 @@ void FieldReplanning::plan(const PlanRequest& request, PlanResult& result) {
   meet_goal(request.goal_world);
   // 1. Conflicts ahead on the committed trajectory, up to its end and with all peers.
   check_.prepare(request.world, request.time, PeerSelection::all);
-  find_way_out(request);
+  find_escape(request);
   Threat threat;
   if (request.committed != nullptr) threat = threat_to(*request.committed, request);
   // 2. A new plan when one is due; else the committed one, as long as it leads to no early contact.
@@ -155,7 +155,7 @@ void FieldReplanning::fail(const PlanRequest& request, const Threat& threat, Pla
   if (threat.report.kind == ConflictKind::obstacle) result.blocking_track = threat.report.id;
   if (threat.report.kind == ConflictKind::peer) result.blocking_peer = threat.report.id;
   const EmergencyManoeuvre manoeuvre =
-      in_fields_ ? way_out_
+      in_fields_ ? escape_
                  : best_emergency_manoeuvre(request.head, request.heading, request.time,
                                             request.time + kPrimitiveHorizon, check_, robot_);
   if (manoeuvre.sidestep && replanning_.retreat) {

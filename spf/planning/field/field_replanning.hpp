@@ -36,19 +36,19 @@ class FieldReplanning final : public Planner {
   };
   void meet_goal(const Eigen::Vector2d& goal_world);
   [[nodiscard]] Threat threat_to(const Trajectory& trajectory, const PlanRequest& request) const;
-  void find_way_out(const PlanRequest& request);
+  void find_escape(const PlanRequest& request);
   [[nodiscard]] bool plan_due(const PlanRequest& request, const Threat& threat) const;
   void attempt(const PlanRequest& request, const Threat& threat, PlanResult& result);
-  /// Names the first moving obstacle or peer on the guide path when the planner named none.
+  /// Names the first moving obstacle or peer on the guide when the planner named none.
   void name_blocker(const PlanRequest& request, PlanResult& result) const;
   static void keep(const PlanRequest& request, PlanResult& result);
   void fail(const PlanRequest& request, const Threat& threat, PlanResult& result);
 
   RobotParameters robot_;
   ReplanningParameters replanning_;
-  double horizon_;              // [m] of the planner
-  EmergencyManoeuvre way_out_;  // of the danger regions that contain the robot; of this check
-  bool in_fields_ = false;      // some region does
+  double horizon_;             // [m] of the planner
+  EmergencyManoeuvre escape_;  // of the danger regions that contain the robot; of this check
+  bool in_fields_ = false;     // some region does
   FieldPlanner planner_;
   ClearanceModel check_;  // against all peers
   Attempt last_;

@@ -55,7 +55,7 @@ double dijkstra(const OccupancyMap& map, const Eigen::Vector2i& start, const Eig
   return cost[slot(goal.x(), goal.y())];
 }
 
-TEST(GridSearch, FindsTheShortestWay) {
+TEST(GridSearch, FindsTheShortestPath) {
   GridSearch search;
   int found = 0;
   int none = 0;
@@ -145,9 +145,9 @@ TEST(GridSearch, DoesNotRememberThePreviousSearch) {
   for (int k = 0; k < 50; ++k) {
     GridSearchRequest request;
     request.clearance = 0.15;
-    for (Eigen::Vector2d* place : {&request.start_world, &request.goal_world}) {
-      place->x() = random.uniform(-3.0, 3.0);
-      place->y() = random.uniform(-3.0, 3.0);
+    for (Eigen::Vector2d* position : {&request.start_world, &request.goal_world}) {
+      position->x() = random.uniform(-3.0, 3.0);
+      position->y() = random.uniform(-3.0, 3.0);
     }
     GridSearch fresh;
     const GridSearchResult expected = fresh.search(map, request);

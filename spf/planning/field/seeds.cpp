@@ -42,7 +42,7 @@ LocalTarget SeedMaker::local_target(const PlanRequest& request, const CostToGo& 
   LocalTarget target;
   target.distance = whole;
   target.state.position_world = path_.back();
-  // The way may end at a corner far ahead: see CostToGo::shortest_path().
+  // The path may end at a corner far ahead: see CostToGo::shortest_path().
   const bool to_goal = (path_.back() - guide.goal_used()).norm() < 1e-3;
   target.is_goal = to_goal && whole <= horizon;
   if (target.is_goal) return target;

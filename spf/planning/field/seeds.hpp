@@ -14,11 +14,11 @@ namespace spf {
 
 /// Kinds of seeds, in the order in which they are tried.
 enum class SeedKind {
-  warm,        ///< the committed plan, extended along the guide path
-  cold,        ///< along the guide path
-  bowed_left,  ///< along the guide path, bent to one side
+  warm,        ///< the committed plan, extended along the guide
+  cold,        ///< along the guide
+  bowed_left,  ///< along the guide, bent to one side
   bowed_right,
-  slow,           ///< along the guide path in more time, to let others pass first
+  slow,           ///< along the guide in more time, to let others pass first
   short_horizon,  ///< to a target at half the horizon
 };
 
@@ -26,15 +26,15 @@ enum class SeedKind {
 struct LocalTarget {
   FlatState state;        ///< the goal at rest, or a position on the path at cruising speed
   bool is_goal = false;   ///< the plan ends at the goal
-  double distance = 0.0;  ///< [m] from the head along the guide path
+  double distance = 0.0;  ///< [m] from the head along the guide
 };
 
-/// Makes targets and seeds; keeps the guide path's corners between calls.
+/// Makes targets and seeds; keeps the guide's corners between calls.
 class SeedMaker {
  public:
   SeedMaker(const PlannerParameters& planner, const RobotParameters& robot);
 
-  /// The position after `horizon` metres of the guide path, or the goal when it is nearer. A position on the
+  /// The position after `horizon` metres along the guide, or the goal when it is nearer. A position on the
   /// path that is not free (static, or occupied by something at rest) is moved along the path, backwards
   /// first.
   [[nodiscard]] LocalTarget local_target(const PlanRequest& request, const CostToGo& guide,

@@ -100,7 +100,7 @@ void append_ramp(Trajectory& trajectory, Eigen::Vector2d& position, const Eigen:
 }  // namespace
 
 HalfPlane allowed_velocities(const Encounter& encounter, double horizon, double period,
-                             const Eigen::Vector2d& way_out) {
+                             const Eigen::Vector2d& escape) {
   const Eigen::Vector2d& x = encounter.offset;
   const Eigen::Vector2d relative = encounter.own_velocity - encounter.other_velocity;
   const double distance = x.norm();
@@ -117,7 +117,7 @@ HalfPlane allowed_velocities(const Encounter& encounter, double horizon, double 
   const bool round_end =
       !apart || -from_cut_off.dot(x) > length * reach;  // the border's round part is nearest
   if (round_end) {
-    plane.normal = length > 1e-9 ? Eigen::Vector2d{from_cut_off / length} : way_out;
+    plane.normal = length > 1e-9 ? Eigen::Vector2d{from_cut_off / length} : escape;
     change = reach / t - length;
   } else {
     const double side = cross(x, from_cut_off) > 0.0 ? 1.0 : -1.0;  // left or right leg of the cone
@@ -281,7 +281,7 @@ void OrcaPlanner::collect_neighbours(const PlanRequest& request) {
       const bool shares = peer.state == PeerState::moving && !peer.expired;
       neighbour.encounter = {peer.position(time) - request.head.position_world, request.head.velocity_world,
                              peer.velocity(time), 0.0, shares ? 0.5 : 1.0};
-      neighbour.way_out = {0.0, goes_first(request.world.rank(), peer.rank()) ? 1.0 : -1.0};
+      neighbour.escape = {0.0, goes_first(request.world.rank(), peer.rank()) ? 1.0 : -1.0};
       neighbour.is_peer = true;
       neighbour.id = peer.robot_id;
       collect(neighbour, peer.radius + peer.growth);
@@ -294,7 +294,7 @@ void OrcaPlanner::collect_neighbours(const PlanRequest& request) {
         track.state.position_world + (time - track.time) * track.state.velocity_world;
     neighbour.encounter = {position - request.head.position_world, request.head.velocity_world,
                            track.state.velocity_world, 0.0, parameters_.obstacle_share};
-    neighbour.way_out = Eigen::Vector2d::UnitY();
+    neighbour.escape = Eigen::Vector2d::UnitY();
     neighbour.id = track.id;
     collect(neighbour, track.state.radius);
   }
@@ -318,7 +318,7 @@ void OrcaPlanner::collect(Neighbour neighbour, double other_radius) {
 void OrcaPlanner::add_neighbour_planes() {
   for (const Neighbour& neighbour : neighbours_) {
     planes_.push_back(
-        allowed_velocities(neighbour.encounter, parameters_.time_horizon, period_, neighbour.way_out));
+        allowed_velocities(neighbour.encounter, parameters_.time_horizon, period_, neighbour.escape));
   }
 }
 

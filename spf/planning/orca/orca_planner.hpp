@@ -38,9 +38,9 @@ struct Encounter {
 /// The velocities that this encounter allows (the publication's ORCA set). If both discs choose from theirs
 /// (with shares of 1/2), their distance stays above `reach` for `horizon` seconds. Discs that are too close
 /// already are separated within `period` seconds. Exact symmetry is resolved to the right; coinciding discs
-/// separate along `way_out` (unit vector, opposite for the two).
+/// separate along `escape` (unit vector, opposite for the two).
 [[nodiscard]] HalfPlane allowed_velocities(const Encounter& encounter, double horizon, double period,
-                                           const Eigen::Vector2d& way_out);
+                                           const Eigen::Vector2d& escape);
 
 /// The chosen velocity, and whether it satisfies all half-planes.
 struct VelocityChoice {
@@ -84,7 +84,7 @@ class OrcaPlanner final : public Planner {
   struct Neighbour {
     Encounter encounter;
     double gap = 0.0;  // [m] between the surfaces
-    Eigen::Vector2d way_out;
+    Eigen::Vector2d escape;
     bool is_peer = false;
     int id = 0;
   };

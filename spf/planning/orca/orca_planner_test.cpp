@@ -299,9 +299,9 @@ TEST_F(OrcaPlannerTest, CrossesTheWayOfAnObstacleThatDoesNotReact) {
       bool named = false;
       for (int k = 0; k < 150; ++k) {
         const double time = kPeriod * k;
-        const auto place = [&](double at) { return Vector2d{0.0, start + 3.0 - 0.7 * at}; };
+        const auto obstacle_at = [&](double at) { return Vector2d{0.0, start + 3.0 - 0.7 * at}; };
         tracks.clear();
-        place_obstacle(place(time), {0.0, -0.7});
+        place_obstacle(obstacle_at(time), {0.0, -0.7});
         tracks.front().time = time;
         tracks.front().id = 7;
         robot_a.planner.plan(request_of(robot_a, 0, time), robot_a.result);
@@ -309,7 +309,7 @@ TEST_F(OrcaPlannerTest, CrossesTheWayOfAnObstacleThatDoesNotReact) {
         robot_a.committed = robot_a.result.trajectory;
         for (int j = 0; j <= 10; ++j) {
           const double now = time + 0.01 * j;
-          least = std::min(least, (robot_a.committed.position(now) - place(now)).norm());
+          least = std::min(least, (robot_a.committed.position(now) - obstacle_at(now)).norm());
         }
       }
       EXPECT_GT(least, robot.radius + 0.4) << "start " << start << ", limited " << limited;

@@ -21,9 +21,9 @@ Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d&
 
 Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
                               const RollOutSettings& settings, double pace, double speed_now) {
-  std::optional<Eigen::Vector2d> on_way;
-  if (settings.passage != nullptr) on_way = settings.passage->direction(position_world, speed_now);
-  const Eigen::Vector2d direction = on_way ? *on_way : guide.direction(position_world);
+  std::optional<Eigen::Vector2d> on_path;
+  if (settings.passage != nullptr) on_path = settings.passage->direction(position_world, speed_now);
+  const Eigen::Vector2d direction = on_path ? *on_path : guide.direction(position_world);
   const double cost = guide.cost_to_go(position_world);
   // Narrow ground costs more than its length: near the goal the straight distance tells better.
   const double straight = (guide.goal_used() - position_world).norm();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "spf/math/plane.hpp"
 #include "spf/planning/cost_to_go.hpp"
 
 namespace spf {
@@ -14,7 +15,7 @@ constexpr double kOffMiddle =
     0.8;  // [1] of the room beside the robot: the rest is for not being in the middle
 constexpr double kNearlyAsFar = 0.9;   // [1] of the most standard deviations from a surface
 constexpr double kMostParts = 1e6;     // of a leg
-constexpr std::size_t kCorners = 64;   // of a way: more have to be allocated
+constexpr std::size_t kCorners = 64;   // of a path: more have to be allocated
 constexpr double kLookAhead = 0.5;     // [1] of the radius
 constexpr std::size_t kTurnMarks = 3;  // looks before and behind a turn
 constexpr double kStraight = 0.1;      // [rad]
@@ -27,13 +28,13 @@ constexpr double kSpacing = 1.0 / 3.0;  // [1] of the radius, between looks
 
 }  // namespace
 
-double way_sigma(double static_sigma, double position_sigma, double speed, double max_speed) {
+double path_sigma(double static_sigma, double position_sigma, double speed, double max_speed) {
   return std::hypot(static_sigma * std::min(1.0, kStillPace + speed / max_speed), position_sigma);
 }
 
 PassageSpeed::PassageSpeed(const SpaceTimeParameters& parameters, const RobotParameters& robot)
     : parameters_{parameters}, robot_{robot} {
-  way_.reserve(kCorners);
+  path_.reserve(kCorners);
   legs_.reserve(kCorners);
   marks_.reserve(kCorners + static_cast<std::size_t>(std::min(reach() / (kSpacing * robot_.radius), 1e4)));
 }
@@ -55,11 +56,11 @@ PassageSpeed::Room PassageSpeed::room_at(const PlanRequest& request,
   return room;
 }
 
-/// Largest speed on a straight way with this room [m] on its narrower side.
+/// Largest speed on a straight path with this room [m] on its narrower side.
 double PassageSpeed::straight_speed(const PlanRequest& request, double room) const {
   const double inner = kOffMiddle * std::max(room, 0.0);
   const auto sigma_at = [&](double speed) {
-    return way_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
+    return path_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
   };
   if (inner >= kSurfaceSigmas * sigma_at(robot_.max_speed)) return robot_.max_speed;
   // No slower than helps: what is not known of the own position does not get better by it.
@@ -76,17 +77,17 @@ double PassageSpeed::reach() const {
   return robot_.max_speed * (parameters_.horizon + robot_.max_speed / robot_.max_acceleration);
 }
 
-/// Calls look(position) along the way until it returns false, as far as the robot can come.
+/// Calls look(position) along the path until it returns false, as far as the robot can come.
 template <class Look>
 void PassageSpeed::look_along(const Look& look) const {
   const double spacing = kSpacing * robot_.radius;
   const double far = reach();
   double ahead = 0.0;  // of the last look
-  for (std::size_t i = 1; i < way_.size() && ahead < far; ++i) {
-    const Eigen::Vector2d leg = way_[i] - way_[i - 1];
+  for (std::size_t i = 1; i < path_.size() && ahead < far; ++i) {
+    const Eigen::Vector2d leg = path_[i] - path_[i - 1];
     const int parts = std::max(1, static_cast<int>(std::ceil(std::min(leg.norm() / spacing, kMostParts))));
     for (int part = 1; part <= parts && ahead < far; ++part) {
-      if (!look(Eigen::Vector2d{way_[i - 1] + leg * (static_cast<double>(part) / parts)})) return;
+      if (!look(Eigen::Vector2d{path_[i - 1] + leg * (static_cast<double>(part) / parts)})) return;
       ahead += leg.norm() / parts;
     }
   }
@@ -98,7 +99,7 @@ void PassageSpeed::prepare(const PlanRequest& request) {
   stop_cost_ = exit_cost_ = 0.0;
   waits_ = false;
   const CostToGo& guide = *request.guide;
-  guide.shortest_path(request.head.position_world, way_);
+  guide.shortest_path(request.head.position_world, path_);
   bool narrow = request.give_way.has_value();
   if (!narrow)
     look_along([&](const Eigen::Vector2d& here) {
@@ -134,11 +135,11 @@ void PassageSpeed::prepare(const PlanRequest& request) {
 void PassageSpeed::keep_legs() {
   legs_.clear();
   double ahead = 0.0;
-  for (std::size_t i = 1; i < way_.size() && ahead < reach(); ++i) {
-    const Eigen::Vector2d step = way_[i] - way_[i - 1];
+  for (std::size_t i = 1; i < path_.size() && ahead < reach(); ++i) {
+    const Eigen::Vector2d step = path_[i] - path_[i - 1];
     const double length = step.norm();
     if (!(length > 0.0)) continue;
-    legs_.push_back({way_[i - 1], step / length, length});
+    legs_.push_back({path_[i - 1], step / length, length});
     ahead += length;
   }
 }
@@ -149,8 +150,7 @@ void PassageSpeed::slow_down_in_turns() {
   for (std::size_t k = window; k + window < marks_.size(); ++k) {
     const Eigen::Vector2d before = marks_[k].position_world - marks_[k - window].position_world;
     const Eigen::Vector2d after = marks_[k + window].position_world - marks_[k].position_world;
-    const double angle =
-        std::fabs(std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after)));
+    const double angle = std::fabs(std::atan2(cross(before, after), before.dot(after)));
     if (angle < kStraight) continue;
     const double by_curvature = 0.5 * (before.norm() + after.norm()) / angle;
     const double cut = kCut * std::max(marks_[k].room.least(), 0.0);
@@ -160,7 +160,7 @@ void PassageSpeed::slow_down_in_turns() {
   }
 }
 
-/// Where the way leads through what stands, and from where it comes near to it on.
+/// Where the path leads through what stands, and from where it comes near to it on.
 void PassageSpeed::stop_before_what_stands() {
   auto inside = std::find_if(marks_.begin(), marks_.end(), [this](const Mark& mark) {
     return mark.room.at_standing < -parameters_.static_margin;
@@ -180,7 +180,7 @@ std::optional<Eigen::Vector2d> PassageSpeed::direction(const Eigen::Vector2d& po
   if (!limits()) return std::nullopt;
   double nearest = robot_.radius * robot_.radius;
   auto leg = legs_.end();
-  double along = 0.0;  // [m] from the leg's start to the nearest place
+  double along = 0.0;  // [m] from the leg's start to the nearest point
   for (auto trial = legs_.begin(); trial != legs_.end(); ++trial) {
     const Eigen::Vector2d offset = position_world - trial->from_world;
     const double at = std::clamp(offset.dot(trial->direction_world), 0.0, trial->length);

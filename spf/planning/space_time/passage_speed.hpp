@@ -1,6 +1,6 @@
-// Speed that follows clearance: a slow robot keeps its way more exactly, so where the guide's way is narrow
-// the robot goes as slowly as the gap needs, and brakes for it in time. Where the way leads through something
-// that stands it stops in front of it. Frame: world.
+// Speed that follows clearance: a slow robot tracks its path more exactly, so where the guide's path is
+// narrow the robot goes as slowly as the gap needs, and brakes for it in time. Where the path leads through
+// something that stands, the robot stops in front of it. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,8 +16,8 @@
 
 namespace spf {
 
-/// How exactly the robot keeps its way [m], one standard deviation, at a speed [m/s].
-[[nodiscard]] double way_sigma(double static_sigma, double position_sigma, double speed, double max_speed);
+/// Standard deviation [m] of the robot's position across its path, at a speed [m/s].
+[[nodiscard]] double path_sigma(double static_sigma, double position_sigma, double speed, double max_speed);
 inline constexpr double kStillPace = 0.15;     ///< [1] of max_speed: below, slower is not more exact
 inline constexpr double kSurfaceSigmas = 4.0;  ///< [1] as far from a surface there is no risk
 
@@ -26,21 +26,21 @@ class PassageSpeed {
   PassageSpeed(const SpaceTimeParameters& parameters, const RobotParameters& robot);
 
   /// Looks along the guide, which must be ready, as far as the robot can come within the horizon and then
-  /// stop. Allocates only for a way of more corners than ever before.
+  /// stop. Allocates only for a path of more corners than ever before.
   void prepare(const PlanRequest& request);
 
-  /// Whether anything on the way is narrow.
+  /// Whether anything on the path is narrow.
   [[nodiscard]] bool limits() const { return !marks_.empty(); }
   /// Largest speed [m/s] where `cost_to_go` [m] is left; infinite where nothing limits it.
   [[nodiscard]] double limit(double cost_to_go) const;
-  /// Unit vector along the way from a position beside it, at a speed [m/s]: towards a place ahead, so that
+  /// Unit vector along the path from a position beside it, at a speed [m/s]: towards a point ahead, so that
   /// turns begin in time and slow robots keep exactly to the corners, round which the guide's gradient leads
-  /// a little too early. None far from the way, and where nothing is narrow.
+  /// a little too early. None far from the path, and where nothing is narrow.
   [[nodiscard]] std::optional<Eigen::Vector2d> direction(const Eigen::Vector2d& position_world,
                                                          double speed) const;
-  /// What stands in the way, of the guide; null: nothing.
+  /// What stands on the guide's path; null: nothing.
   [[nodiscard]] const StandingDisc* blocked_by() const { return blocker_; }
-  /// The robot has to stop on its way, before that or to let others pass.
+  /// The robot has to stop on its path, before that or to let others pass.
   [[nodiscard]] bool stands_before() const { return waits_ || blocker_ != nullptr; }
   /// What is left to go [m] for who wants to get on: to come nearer to something that stands in the way than
   /// where the robot stops is no progress.
@@ -86,8 +86,8 @@ class PassageSpeed {
 
   SpaceTimeParameters parameters_;
   RobotParameters robot_;
-  std::vector<Eigen::Vector2d> way_;
-  std::vector<Leg> legs_;    // of the way, as far as the robot can come
+  std::vector<Eigen::Vector2d> path_;
+  std::vector<Leg> legs_;    // of the path, as far as the robot can come
   std::vector<Mark> marks_;  // by falling cost, at most a third of the radius apart
   const StandingDisc* blocker_ = nullptr;
   bool waits_ = false;

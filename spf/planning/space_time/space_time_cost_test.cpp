@@ -68,9 +68,9 @@ struct SpaceTimeScene {
 /// One node at a given position and time: the first node of a trajectory at rest.
 class OneNode {
  public:
-  NodePenalty ask(const SpaceTimeCost& cost, const Eigen::Vector2d& place, double time) {
+  NodePenalty ask(const SpaceTimeCost& cost, const Eigen::Vector2d& position, double time) {
     MincoEnds ends;
-    ends.head.position_world = ends.tail.position_world = place;
+    ends.head.position_world = ends.tail.position_world = position;
     minco_.solve(ends, Eigen::Matrix2Xd(2, 0), Eigen::VectorXd::Constant(1, 2.0));
     nodes_.sample(minco_, time);
     cost(nodes_);
@@ -82,33 +82,33 @@ class OneNode {
   NodeSet nodes_{1, 2};
 };
 
-TEST(SpaceTimeCost, NodeGradientInPlaceAndTime) {
+TEST(SpaceTimeCost, NodeGradientInPositionAndTime) {
   constexpr double kStep = 1e-6;
   RandomStream random{8};
   OneNode node;
   int felt = 0;
   for (int i = 0; i < 2000; ++i) {
     const SpaceTimeScene scene{mix(31, static_cast<std::uint64_t>(i / 20))};
-    const Eigen::Vector2d place{random.uniform(0.0, 5.0), random.uniform(-1.5, 1.5)};
+    const Eigen::Vector2d position{random.uniform(0.0, 5.0), random.uniform(-1.5, 1.5)};
     // Away from the joints of the table, where the interpolation has a kink.
     const int cell = static_cast<int>(random.uniform(-3.0, 33.0));
     const double time = kStart + 0.1 * (cell + random.uniform(0.05, 0.95));
-    const NodePenalty at = node.ask(scene.cost, place, time);
+    const NodePenalty at = node.ask(scene.cost, position, time);
     const auto value = [&](const Eigen::Vector2d& p, double t) {
       return node.ask(scene.cost, p, t).integrand;
     };
     const Eigen::Vector2d x = kStep * Eigen::Vector2d::UnitX();
     const Eigen::Vector2d y = kStep * Eigen::Vector2d::UnitY();
-    const Eigen::Vector3d numeric{value(place + x, time) - value(place - x, time),
-                                  value(place + y, time) - value(place - y, time),
-                                  value(place, time + kStep) - value(place, time - kStep)};
+    const Eigen::Vector3d numeric{value(position + x, time) - value(position - x, time),
+                                  value(position + y, time) - value(position - y, time),
+                                  value(position, time + kStep) - value(position, time - kStep)};
     const Eigen::Vector3d analytic{at.wrt_position.x(), at.wrt_position.y(), at.wrt_time};
     // Costs up to 1e5 with steps of 1e-6: rounding 1e-16 * 1e5 / 1e-6 = 1e-5 per second or metre; slopes
     // reach 1e6. Where a term is cut off (5 sigma) it jumps by 3e-7 of its factor, 6e-3 here: such a step
     // shows as 3e3, and is met with a chance of about 1e-5.
     const double scale = std::max(analytic.norm(), 1.0);
     EXPECT_LT((analytic - numeric / (2.0 * kStep)).norm(), 1e-3 + 1e-6 * scale)
-        << "place " << place.transpose() << " time " << time;
+        << "position " << position.transpose() << " time " << time;
     felt += at.wrt_position.norm() > 1.0 && std::abs(at.wrt_time) > 1.0 ? 1 : 0;
   }
   EXPECT_GT(felt, 500);  // most of these points are near a disc
@@ -120,12 +120,12 @@ TEST(SpaceTimeCost, IsThePriceOfTheChanceThatTheRiskTells) {
   OneNode node;
   RandomStream random{6};
   for (int i = 0; i < 200; ++i) {
-    const Eigen::Vector2d place{random.uniform(0.0, 5.0), random.uniform(-1.5, 1.5)};
+    const Eigen::Vector2d position{random.uniform(0.0, 5.0), random.uniform(-1.5, 1.5)};
     const int step = static_cast<int>(random.uniform(0.0, 31.0));
     double sum = 0.0;
     for (int e = 0; e < scene.risk.disc_count(); ++e)
-      sum += scene.risk.chance(scene.risk.disc(e), step, place, 0.0);
-    const double integrand = node.ask(scene.cost, place, kStart + 0.1 * step).integrand;
+      sum += scene.risk.chance(scene.risk.disc(e), step, position, 0.0);
+    const double integrand = node.ask(scene.cost, position, kStart + 0.1 * step).integrand;
     // The risk cuts tails off at 4 sigma (3e-5 each), the cost at 5.
     EXPECT_NEAR(integrand * scene.cost.exposure / scene.cost.price, sum, 5 * 3.2e-5);
   }

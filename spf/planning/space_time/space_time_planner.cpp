@@ -14,8 +14,8 @@ Eigen::Vector2d between(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
   return (1.0 - share) * from + share * to;
 }
 
-/// Calls look(position, speed) along a roll-out and along the way on which the robot then stops, until it
-/// returns false, so often that no surface lies between two places that are both free of it.
+/// Calls look(position, speed) along a roll-out and along the path on which the robot then stops, until it
+/// returns false, so often that no surface lies between two positions that are both free of it.
 template <class Look>
 void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spacing, const Look& look) {
   const auto look_between = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed,
@@ -38,16 +38,16 @@ void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spa
 }
 
 constexpr double kProgress = 0.3;   // [1] of the radius
-constexpr double kElsewhere = 3.0;  // [1] likewise: so much farther it has another way, or was pushed off
+constexpr double kElsewhere = 3.0;  // [1] likewise: so much farther it has another path, or was pushed off
 constexpr std::array<double, 3> kPaces{0.5, 0.25,
                                        0.12};  // [1] of max_speed: along the guide, where it is tight
 constexpr double kSlowFraction = 0.5;          // [1] of max_speed: the second speed of the sidesteps
 constexpr double kEarlyProgress =
-    0.3;  // [1] weight of the way to go at instants before the horizon: no putting off
+    0.3;  // [1] weight of the distance to go at instants before the horizon: no putting off
 constexpr double kBlockedStand = 4.0;  // [1] of stand_bonus, before something that stands in the way
 constexpr int kProgressSamples = 3;
 // A gap is no wider later on. A robot that has stood before one takes more of its risk, little by little.
-constexpr double kPatience = 2.0;       // [s]
+constexpr double kHalvedAfter = 2.0;    // [s]
 constexpr double kLeastPrice = 0.02;    // [1] of the price of the risk of surfaces
 constexpr double kNoRoomSigmas = 1.5;   // [1] nearer to a surface than that, the price never falls
 constexpr double kPauseTime = 0.5;      // [s] without a call: the robot did not wait of its own accord
@@ -73,7 +73,7 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
   settings_ = settings_of(parameters_, robot_, risk_.steps());
 }
 
-/// Static surfaces: the probability that the own error across the way reaches one. A slow robot keeps its way
+/// Static surfaces: the probability that the error across the path reaches one. A slow robot tracks its path
 /// more exactly, so it may pass where a fast one may not. It is not discounted: a wall
 /// will still be there, and a discounted risk would be put off for ever. Not exact from `enough` on.
 double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
@@ -87,7 +87,8 @@ double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Ve
   look_along(roll_out, stop, robot_.radius, [&](const Eigen::Vector2d& position, double speed) {
     double clearance = map.distance(position) - wanted_clearance;
     if (clearance > kSurfaceSigmas * full_softness) return true;
-    const double sigma = way_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
+    const double sigma =
+        path_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
     // exact_distance() is no less.
     if (clearance >= 0.0 && clearance >= least_sigmas * sigma) return true;
     clearance = map.exact_distance(position) - wanted_clearance;
@@ -244,7 +245,7 @@ void SpaceTimePlanner::consider_all(const PlanRequest& request, const Score& dir
   consider_sidesteps(request, result);
 }
 
-void SpaceTimePlanner::lose_patience(const PlanRequest& request) {
+void SpaceTimePlanner::update_surface_price(const PlanRequest& request) {
   const bool asked_all_the_time =
       request.time - progress_.asked_time < kPauseTime && request.time >= progress_.asked_time;
   progress_.asked_time = request.time;
@@ -260,7 +261,7 @@ void SpaceTimePlanner::lose_patience(const PlanRequest& request) {
   if (!on_its_way || (!hovers && request.head.velocity_world.norm() > kCreepSpeed * robot_.max_speed))
     progress_.waits_since = request.time;
   progress_.goal = request.goal_world;
-  const double waited = (request.time - progress_.waits_since) / kPatience;
+  const double waited = (request.time - progress_.waits_since) / kHalvedAfter;
   surface_price_ = std::max(kLeastPrice, 1.0 / (1.0 + waited * waited));
 }
 
@@ -281,7 +282,7 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   settings_.max_speed = sight_.speed();
   passage_.prepare(request);
   settings_.passage = &passage_;
-  lose_patience(request);
+  update_surface_price(request);
   // 2. The current plan and the direct primitive; these suffice when the direct one is free.
   consider_previous(request, result);
   const MotionPrimitive direct{Eigen::Vector2d::Zero(), 0.0, MotionPrimitive::Then::goal};

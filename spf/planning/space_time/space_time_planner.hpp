@@ -42,7 +42,7 @@ class SpaceTimePlanner final : public Planner {
                                       const PlanRequest& request, double enough) const;
   void consider(const MotionPrimitive& primitive, const PlanRequest& request, PlanResult& result,
                 double bonus = 0.0);
-  void lose_patience(const PlanRequest& request);
+  void update_surface_price(const PlanRequest& request);
   void consider_previous(const PlanRequest& request, PlanResult& result);
   void consider_all(const PlanRequest& request, const Score& direct, PlanResult& result);
   void consider_sidesteps(const PlanRequest& request, PlanResult& result);

@@ -67,13 +67,13 @@ class SpaceTimePlannerTest : public ::testing::Test {
       const Trajectory committed = plan().trajectory;
       for (int k = 1; k <= 10; ++k) {
         const double time = request.time + 0.01 * k;
-        const Eigen::Vector2d place = committed.position(time);
+        const Eigen::Vector2d position = committed.position(time);
         for (const ObstacleTrack& track : tracks) {
           const Eigen::Vector2d centre =
               track.state.position_world + (time - track.time) * track.state.velocity_world;
-          least = std::min(least, (place - centre).norm() - 0.7);
+          least = std::min(least, (position - centre).norm() - 0.7);
         }
-        for (const Peer& peer : peers) least = std::min(least, (place - peer.position(time)).norm() - 0.6);
+        for (const Peer& peer : peers) least = std::min(least, (position - peer.position(time)).norm() - 0.6);
       }
       request.time += 0.1;
       request.head = committed.state(request.time);
@@ -251,14 +251,14 @@ class RandomRequests {
   explicit RandomRequests(std::uint64_t seed) : random_{seed} {}
 
   /// Inside boxes, obstacles and margins too; the goal now and then right here.
-  Eigen::Vector2d place() {
+  Eigen::Vector2d position() {
     const double x = random_.uniform(-9.5, 9.5);
     const double y = random_.uniform(-9.5, 9.5);
     return {x, y};
   }
   FlatState head(double max_speed) {
     FlatState head;
-    head.position_world = place();
+    head.position_world = position();
     if (random_.uniform() < 0.8)
       head.velocity_world = max_speed * random_.uniform() * random_.normal2().normalized();
     return head;
@@ -310,20 +310,20 @@ TEST_F(SpaceTimePlannerTest, AlwaysGivesAFiniteTrajectoryWithinLimitsThatStartsA
   const RobotParameters robot;
   const PlannerParameters planner_defaults;
   for (int k = 0; k < 6; ++k) {
-    const Eigen::Vector2d low = draw.place().cwiseMin(8.0);
+    const Eigen::Vector2d low = draw.position().cwiseMin(8.0);
     map.add_box(low, low + Eigen::Vector2d{1.5, 1.0});
   }
   for (int i = 0; i < 2000; ++i) {
     SCOPED_TRACE(i);
     tracks.clear();
     peers.clear();
-    if (i % 20 == 0) request.goal_world = draw.place();
+    if (i % 20 == 0) request.goal_world = draw.position();
     request.head = draw.head(robot.max_speed);
     if (i % 20 == 7) request.head.position_world = request.goal_world;
     request.position_sigma = i % 11 == 0 ? 1e3 : 0.05;
-    const int movers = static_cast<int>(draw.random().uniform(0.0, 12.0));
-    for (int k = 0; k < movers; ++k) tracks.push_back(draw.track(k, request.head.position_world));
-    for (int k = 0; k < movers / 2; ++k) peers.push_back(draw.peer(k, request.head.position_world));
+    const int obstacles = static_cast<int>(draw.random().uniform(0.0, 12.0));
+    for (int k = 0; k < obstacles; ++k) tracks.push_back(draw.track(k, request.head.position_world));
+    for (int k = 0; k < obstacles / 2; ++k) peers.push_back(draw.peer(k, request.head.position_world));
     plan();
     const Trajectory& trajectory = result.trajectory;
     ASSERT_FALSE(trajectory.empty());

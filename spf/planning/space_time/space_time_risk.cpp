@@ -11,14 +11,14 @@ namespace spf {
 namespace {
 
 constexpr double kStillGrowth = 0.25;   // [1] of the growth of a peer's uncertainty, while it stands
-constexpr double kInPlace = 0.3;        // [1] of a peer's radius: a plan that leads no farther stands
+constexpr double kStands = 0.3;         // [1] of a peer's radius: a plan that leads no farther stands
 constexpr double kRestPace = 0.02;      // [1] of max_speed: it stands
 constexpr double kAtGoalWeight = 0.1;   // [1] of the risk with peers, for a robot at its goal
 constexpr double kAtGoal = 0.3;         // [1] of the radius
 constexpr double kParking = 4.0;        // [1] of the radius
 constexpr double kNearGoal = 3.0;       // [1] of the radius
 constexpr double kAtGoalSpeed = 0.1;    // [1] of max_speed
-constexpr double kTrackStands = 2.0;    // [s] in one place: it stands
+constexpr double kTrackStands = 2.0;    // [s] at one position: it stands
 constexpr double kArrivedCounts = 3.0;  // [1] of the time stood, for peers that say that they stay
 constexpr std::size_t kMoreDiscs = 8;
 constexpr double kNegligibleSigmas =
@@ -121,11 +121,11 @@ void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& t
 /// as long again, which counts the more against waiting.
 void SpaceTimeRisk::weigh_start(PredictedDisc& disc, double stood) const {
   const double horizon = steps_ * parameters_.step;
-  const double patience = horizon / (horizon + stood);
+  const double discount = horizon / (horizon + stood);
   for (int k = 0; k <= steps_; ++k) {
     const double ahead = k * parameters_.step;
     const double starts = stood + ahead > 0.0 ? ahead / (stood + ahead) : 1.0;
-    disc.weight[static_cast<std::size_t>(k)] *= starts * patience * patience;
+    disc.weight[static_cast<std::size_t>(k)] *= starts * discount * discount;
   }
 }
 
@@ -161,7 +161,7 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   const Eigen::Vector2d now = peer.position(request.time);
   const double moves = (peer.position(request.time + steps_ * parameters_.step) - now).norm();
   const bool stands = (peer.state == PeerState::stopped || peer.state == PeerState::arrived) &&
-                      !peer.expired && moves < kInPlace * peer.radius;
+                      !peer.expired && moves < kStands * peer.radius;
   disc.radius = robot_radius_ + peer.radius + peer.growth +
                 (stands ? parameters_.static_margin : parameters_.peer_margin);
   // It plans again, less so where it means to stand; and where robots park, the less the slower it is.

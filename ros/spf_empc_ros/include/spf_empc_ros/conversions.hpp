@@ -62,7 +62,7 @@ struct StampedTrajectory {
 
 /// Readings as they come.
 [[nodiscard]] Converted<spf::RangeScan> from_message(const sensor_msgs::LaserScan& scan);
-/// With the place of its frame in the body's.
+/// With the pose of its frame in the body's.
 [[nodiscard]] Converted<spf::host::DriverScan> driver_scan(const sensor_msgs::LaserScan& scan,
                                                            const geometry_msgs::Pose& scanner_in_body);
 [[nodiscard]] sensor_msgs::LaserScan to_message(const spf::RangeScan& scan);

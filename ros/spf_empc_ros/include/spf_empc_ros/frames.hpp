@@ -1,4 +1,4 @@
-// Places of frames in each other, from tf. Whoever asks learns how old the answer is: a transform that is
+// Poses of frames in each other, from tf. Whoever asks learns how old the answer is: a transform that is
 // published no more is not valid for ever.
 #pragma once
 
@@ -42,11 +42,11 @@ class Frames {
   /// the time asked for is refused.
   explicit Frames(double oldest) : oldest_{oldest}, listener_{buffer_} {}
 
-  /// The place of `frame` in `in`, in space and in the plane.
-  [[nodiscard]] Converted<geometry_msgs::Pose> place_in_space(const std::string& frame, const std::string& in,
-                                                              const ros::Time& time) const;
-  [[nodiscard]] Converted<spf::Pose2> place(const std::string& frame, const std::string& in,
-                                            const ros::Time& time) const;
+  /// The pose of `frame` in `in`, in space and in the plane.
+  [[nodiscard]] Converted<geometry_msgs::Pose> pose_in_space(const std::string& frame, const std::string& in,
+                                                             const ros::Time& time) const;
+  [[nodiscard]] Converted<spf::Pose2> planar_pose(const std::string& frame, const std::string& in,
+                                                  const ros::Time& time) const;
   /// The pose of a message with its header, as one in `in`. Without a stamp it is of now.
   [[nodiscard]] Converted<spf::Pose2> pose(const std_msgs::Header& header, const geometry_msgs::Pose& pose,
                                            const std::string& in) const;

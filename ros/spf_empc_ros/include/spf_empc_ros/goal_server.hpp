@@ -35,7 +35,7 @@ class GoalServer {
   GoalServer(const GoalServer&) = delete;
   GoalServer& operator=(const GoalServer&) = delete;
 
-  /// Tolerances at once, patience for the goals to come.
+  /// Tolerances at once, the timeout for the goals to come.
   void reconfigure(const spf::AgentParameters& agent, const spf::host::HostParameters& host);
   /// After every step of the planner, at the same time [s].
   void step(double now);
@@ -70,7 +70,7 @@ class GoalServer {
   spf::host::PlannerProcess& host_;
   const Frames& frames_;
   Refuse refuse_;
-  double patience_;  // [s]
+  double goal_timeout_;  // [s]
   spf::host::GoalSupervisor supervisor_;
   GoalMemory memory_;
   std::optional<RememberedGoal> resumed_;  // while it is taken up again

@@ -38,7 +38,7 @@ class Pace {
   [[nodiscard]] double lost() const { return lost_; }  ///< [s] on the wall, by all shifts
 
  private:
-  static constexpr double kPatience = 0.01;  // [s] that are made up for
+  static constexpr double kTolerated = 0.01;  // [s] that are made up for
   double speed_;
   double time_ = 0.0;  // [s] simulated
   double wall_ = 0.0;  // [s] then

@@ -1,4 +1,4 @@
-#include "spf/team/agent_status.hpp"
+#include "spf/team/stop_cause.hpp"
 
 namespace spf {
 
