@@ -15,6 +15,12 @@ CostToGo for_robot(const AgentParameters& parameters, const GuideNeeds& needs) {
   return CostToGo{parameters.guide, parameters.robot.radius, parameters.space_time.static_margin};
 }
 
+constexpr double kBeside = 0.4;  // [1] of the radius: what stands so near to the path slows the robot down
+
+double beside(const AgentParameters& parameters, const GuideNeeds& needs) {
+  return needs.passes_narrow_gaps ? kBeside * parameters.robot.radius : 0.0;
+}
+
 }  // namespace
 
 GuidePolicy::GuidePolicy(const AgentParameters& parameters, const GuideNeeds& needs, double time)
@@ -23,6 +29,7 @@ GuidePolicy::GuidePolicy(const AgentParameters& parameters, const GuideNeeds& ne
       cost_to_go_{for_robot(parameters, needs)},
       next_{cost_to_go_},
       max_speed_{parameters.robot.max_speed},
+      beside_{beside(parameters, needs)},
       next_time_{time} {}
 
 void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeeds& needs) {
@@ -30,6 +37,7 @@ void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeed
   goal_tolerance_ = parameters.team.goal_tolerance;
   if (max_speed_ != parameters.robot.max_speed && !cost_to_go_.standing().empty()) goal_.reset();
   max_speed_ = parameters.robot.max_speed;
+  beside_ = beside(parameters, needs);
   CostToGo wanted = for_robot(parameters, needs);
   if (wanted.clearance() == cost_to_go_.clearance() &&
       wanted.least_clearance() == cost_to_go_.least_clearance() &&
@@ -158,7 +166,8 @@ bool GuidePolicy::path_clear(const OccupancyMap& map, const Eigen::Vector2d& her
   return true;
 }
 
-/// What stands on the path, or stood on it when the guide led round: all else changes no path.
+/// What stands on the path, or so near beside it that the robot slows down there, or stood on it when the
+/// guide led round: all else changes no path.
 void GuidePolicy::choose_standing(const WorldSnapshot& world, const Eigen::Vector2d& here, bool same_goal) {
   find_standing(world, standing_);
   corners_.clear();
@@ -175,7 +184,7 @@ void GuidePolicy::choose_standing(const WorldSnapshot& world, const Eigen::Vecto
 bool GuidePolicy::stands_on(const std::vector<Eigen::Vector2d>& path, const StandingDisc& disc) const {
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (distance_to_segment(disc.position_world, {path[i - 1], path[i]}) <
-        disc.radius + cost_to_go_.least_clearance())
+        disc.radius + cost_to_go_.least_clearance() + beside_)
       return true;
   }
   return false;

@@ -74,6 +74,7 @@ class GuidePolicy {
   std::vector<Eigen::Vector2d> corners_;  // [m] kept for its memory
   std::vector<StandingDisc> standing_;    // likewise
   double max_speed_;                      // [m/s]
+  double beside_;                         // [m] what stands so far beside the path matters too
   std::optional<Eigen::Vector2d> goal_;   // [m] that the guide stands for
   bool cut_off_ = false;
   bool approaching_ = false;   // likewise of next_

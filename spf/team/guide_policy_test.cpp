@@ -160,5 +160,23 @@ TEST(GuidePolicy, TakesAnotherClearanceAtOnce) {
   EXPECT_EQ(guide.access(kGoal), GoalAccess::cut_off);
 }
 
+TEST(GuidePolicy, HandsOnWhatStandsSoNearToThePathThatTheRobotSlowsDownBesideIt) {
+  const OccupancyMap map = empty_map();
+  const auto handed_on = [&](double beside) {
+    std::vector<ObstacleTrack> tracks(1);
+    tracks[0].state.position_world = {0.0, beside};
+    tracks[0].state.radius = 0.3;
+    tracks[0].stood = 60.0;
+    WorldSnapshot world = on(map);
+    world.tracks = &tracks;
+    GuidePolicy guide{AgentParameters{}, {true, true}, 0.0};
+    for (int call = 0; call <= 100; ++call) guide.refresh(0.1 * call, world, kGoal, kHere);
+    return guide.cost_to_go().standing().size();
+  };
+  EXPECT_EQ(handed_on(0.55), 1U);  // both radii are 0.6 m
+  EXPECT_EQ(handed_on(0.66), 1U);
+  EXPECT_EQ(handed_on(0.8), 0U);
+}
+
 }  // namespace
 }  // namespace spf
