@@ -256,5 +256,62 @@ TEST(RightOfWay, IgnoresClaimsToPassagesFarFromWhoMakesThem) {
   EXPECT_EQ(left.lets_pass(), -1);
 }
 
+TEST(RightOfWay, GoesFirstAllTheSameWhenItIsOutBeforeTheOtherCanBeThere) {
+  const OccupancyMap map = wall_with_passage(0.9, 0.3);
+  for (const bool far : {true, false}) {
+    Walker left{2, map, {6.0, 0.0}};
+    Walker right{1, map, {-6.0, 0.0}};
+    left.look(0.0, {far ? -6.0 : -2.5, 0.0}, {&right});
+    ASSERT_TRUE(left.right_of_way().claim());
+    right.look(1.0, {1.2, 0.0}, {&left});
+    ASSERT_TRUE(right.right_of_way().claim());
+    EXPECT_EQ(right.lets_pass(), far ? -1 : 2);
+  }
+}
+
+TEST(RightOfWay, WhenBothSidesHaveWaitedForLongTheEarlierGoes) {
+  const OccupancyMap map = wall_with_passage(0.9, 0.3);
+  Walker first{2, map, {6.0, 0.0}};
+  Walker right{1, map, {-6.0, 0.0}};
+  Walker late{3, map, {6.0, 0.0}};
+  first.look(0.0, {0.0, 0.0}, {&right});
+  right.look(1.0, {4.0, 0.0}, {&first});
+  EXPECT_EQ(right.lets_pass(), 2);
+  // One that has not seen the first go through waits for the earlier claim, which counts on it to go along.
+  late.look(3.0, {-4.0, 0.0}, {&right});
+  EXPECT_EQ(late.lets_pass(), 1);
+  right.look(3.1, {4.0, 0.0}, {&late});
+  EXPECT_EQ(right.lets_pass(), 3);
+  late.stood = right.stood = 24.0;
+  right.look(24.0, {4.0, 0.0}, {&late});
+  EXPECT_EQ(right.lets_pass(), 3);
+  late.stood = right.stood = 26.0;
+  late.look(26.0, {-4.0, 0.0}, {&right});
+  right.look(26.0, {4.0, 0.0}, {&late});
+  EXPECT_EQ(late.lets_pass(), 1);
+  EXPECT_EQ(right.lets_pass(), -1);
+}
+
+TEST(RightOfWay, OfAQueueTheNextStandsReadyAndTheOthersLeaveRoom) {
+  const OccupancyMap map = wall_with_passage(0.9, 0.3);
+  Walker a{1, map, {6.0, 0.0}};
+  Walker b{2, map, {6.0, 0.0}};
+  Walker c{3, map, {6.0, 0.0}};
+  for (const double time : {0.0, 0.1}) {
+    a.look(time, {-2.0, 0.0}, {&b, &c});
+    b.look(time, {-3.0, 0.0}, {&a, &c});
+    c.look(time, {-4.0, 0.0}, {&a, &b});
+  }
+  EXPECT_FALSE(a.right_of_way().give_way());
+  const auto stops_before = [&](const Walker& walker) {
+    const Eigen::Vector2d entry = walker.right_of_way().claim()->entry_world;
+    return walker.right_of_way().give_way()->cost_to_go - walker.guide().cost_to_go(entry);
+  };
+  ASSERT_TRUE(b.right_of_way().give_way());
+  ASSERT_TRUE(c.right_of_way().give_way());
+  EXPECT_NEAR(stops_before(b), kRobot.radius, 0.1);
+  EXPECT_NEAR(stops_before(c), 6.0 * kRobot.radius, 0.1);
+}
+
 }  // namespace
 }  // namespace spf

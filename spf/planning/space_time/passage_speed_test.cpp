@@ -93,5 +93,22 @@ TEST_F(PassageSpeedTest, StopsBeforeWhatStandsInTheOnlyWayAndNamesIt) {
   EXPECT_EQ(passage_.blocked_by(), nullptr);
 }
 
+TEST_F(PassageSpeedTest, StopsWhereItIsToLetOthersPassAndStepsBackFromNearer) {
+  prepare(1.4);
+  request_.give_way = GiveWay{guide_.cost_to_go({-1.0, 0.0}), 5};
+  passage_.prepare(request_);
+  ASSERT_TRUE(passage_.limits());
+  EXPECT_TRUE(passage_.stands_before());
+  EXPECT_EQ(passage_.blocked_by(), nullptr);
+  EXPECT_EQ(limit_at(-0.9), 0.0);
+  EXPECT_GT(limit_at(-1.8), 0.5);
+  // Nearer to the passage is worse than where it is to wait, as much as the same distance before it.
+  const auto left_at = [&](double x) { return passage_.left_to_go(guide_.cost_to_go({x, 0.0})); };
+  EXPECT_NEAR(left_at(-0.5), left_at(-1.5), 1e-6);
+  EXPECT_LT(left_at(-1.0), left_at(-0.5));
+  EXPECT_TRUE(passage_.in_the_way(guide_.cost_to_go({-0.5, 0.0})));
+  EXPECT_FALSE(passage_.in_the_way(guide_.cost_to_go({-1.0, 0.0})));
+}
+
 }  // namespace
 }  // namespace spf
