@@ -1,7 +1,6 @@
 #include "spf/math/polygon.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 

@@ -17,10 +17,6 @@ CostToGo for_robot(const AgentParameters& parameters, const GuideNeeds& needs) {
 
 constexpr double kBeside = 0.4;  // [1] of the radius: what stands so near to the path slows the robot down
 
-double beside(const AgentParameters& parameters, const GuideNeeds& needs) {
-  return needs.passes_narrow_gaps ? kBeside * parameters.robot.radius : 0.0;
-}
-
 }  // namespace
 
 GuidePolicy::GuidePolicy(const AgentParameters& parameters, const GuideNeeds& needs, double time)
@@ -29,7 +25,7 @@ GuidePolicy::GuidePolicy(const AgentParameters& parameters, const GuideNeeds& ne
       cost_to_go_{for_robot(parameters, needs)},
       next_{cost_to_go_},
       max_speed_{parameters.robot.max_speed},
-      beside_{beside(parameters, needs)},
+      beside_{kBeside * parameters.robot.radius},
       next_time_{time} {}
 
 void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeeds& needs) {
@@ -37,7 +33,7 @@ void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeed
   goal_tolerance_ = parameters.team.goal_tolerance;
   if (max_speed_ != parameters.robot.max_speed && !cost_to_go_.standing().empty()) goal_.reset();
   max_speed_ = parameters.robot.max_speed;
-  beside_ = beside(parameters, needs);
+  beside_ = kBeside * parameters.robot.radius;
   CostToGo wanted = for_robot(parameters, needs);
   if (wanted.clearance() == cost_to_go_.clearance() &&
       wanted.least_clearance() == cost_to_go_.least_clearance() &&

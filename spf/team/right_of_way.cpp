@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "spf/math/plane.hpp"
 #include "spf/math/segment.hpp"
 
 namespace spf {
@@ -77,7 +78,7 @@ std::optional<Eigen::Vector2d> RightOfWay::narrow_axis(const OccupancyMap& map,
   for (const double turn : kTurns) {
     const Eigen::Vector2d forward{std::cos(turn) * along.x() - std::sin(turn) * along.y(),
                                   std::sin(turn) * along.x() + std::cos(turn) * along.y()};
-    const Eigen::Vector2d left{-forward.y(), forward.x()};
+    const Eigen::Vector2d left = left_of(forward);
     const double on_left = side_room(map, position, left, least);
     const double width = on_left + side_room(map, position, -left, least - on_left);
     if (width >= least) continue;
@@ -125,8 +126,8 @@ void RightOfWay::renew_claim(double time, const Eigen::Vector2d& here, const std
     const bool same = narrow && axis.dot(narrow->exit - narrow->entry) > 0.0 &&
                       distance_between_segments({claim_->entry_world, claim_->exit_world},
                                                 {narrow->entry, narrow->exit}) < robot_.radius;
-    const bool beside = distance_between_segments({claim_->entry_world, claim_->exit_world}, {here, here}) <
-                        2.0 * robot_.radius;
+    const bool beside =
+        distance_to_segment(here, {claim_->entry_world, claim_->exit_world}) < 2.0 * robot_.radius;
     if (same) {
       if (narrow->ahead > 0.0) claim_->entry_world = narrow->entry;
       claim_->exit_world = narrow->exit;
