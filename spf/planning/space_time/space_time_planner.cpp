@@ -47,12 +47,20 @@ constexpr double kEarlyProgress =
 constexpr double kBlockedStand = 4.0;  // [1] of stand_bonus, before something that stands in the way
 constexpr int kProgressSamples = 3;
 // A gap is no wider later on. A robot that has stood before one takes more of its risk, little by little.
-constexpr double kHalvedAfter = 2.0;    // [s]
-constexpr double kLeastPrice = 0.02;    // [1] of the price of the risk of surfaces
-constexpr double kNoRoomSigmas = 1.5;   // [1] nearer to a surface than that, the price never falls
-constexpr double kPauseTime = 0.5;      // [s] without a call: the robot did not wait of its own accord
-constexpr double kCreepSpeed = 0.15;    // [1] of max_speed
-constexpr double kHasteCost = 1e-3;     // [1] of collision_cost, at max_speed where none at all is safe
+constexpr double kHalvedAfter = 2.0;   // [s]
+constexpr double kLeastPrice = 0.02;   // [1] of the price of the risk of surfaces
+constexpr double kNoRoomSigmas = 1.5;  // [1] nearer to a surface than that, the price never falls
+constexpr double kPauseTime = 0.5;     // [s] without a call: the robot did not wait of its own accord
+constexpr double kCreepSpeed = 0.15;   // [1] of max_speed
+constexpr double kHasteCost = 1e-3;    // [1] of collision_cost, at max_speed where none at all is safe
+// Among many people some risk is always ahead. From this many encounters within the horizon on the price of
+// the risk of what moves falls, to a least price.
+constexpr double kCrowd = 0.285;        // [1]
+constexpr double kCrowdPower = 8.0;     // [1] how suddenly
+constexpr double kCrowdFall = 20.0;     // [1]
+constexpr double kCrowdCost = 17.0;     // [1] of the horizon: a certain contact, where it is most crowded
+constexpr double kCrowdMemory = 1.33;   // [1] of the horizon
+constexpr double kCrowdRange = 2.67;    // [1] of the way at max_speed within the horizon
 constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter motions are not smoothed
 
 RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
@@ -66,6 +74,8 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
     : parameters_{validated(parameters)},
       robot_{validated(robot)},
       risk_{parameters_, robot_.radius, robot_.max_speed},
+      encounters_{robot_.radius, robot_.max_speed, kCrowdRange * robot_.max_speed * parameters_.horizon,
+                  kCrowdMemory * parameters_.horizon},
       sight_{robot_, parameters_.static_margin},
       passage_{parameters_, robot_},
       smoother_{parameters_, planner, robot_},
@@ -265,6 +275,14 @@ void SpaceTimePlanner::update_surface_price(const PlanRequest& request) {
   surface_price_ = std::max(kLeastPrice, 1.0 / (1.0 + waited * waited));
 }
 
+/// [1] Of the price of the risk of what moves. Chosen on crowds made by `spf crowd` and on T2-hard, which it
+/// leaves as it was.
+double SpaceTimePlanner::crowd_weight() const {
+  const double crowd = std::pow(encounters_.per_second() * parameters_.horizon / kCrowd, kCrowdPower);
+  const double least = kCrowdCost * parameters_.horizon / std::max(parameters_.collision_cost, 1e-9);
+  return std::max(std::min(1.0, least), 1.0 / (1.0 + kCrowdFall * crowd / (1.0 + crowd)));
+}
+
 void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   result.clear();
   if (const std::optional<PlanOutcome> refused = refusal(request)) {
@@ -277,7 +295,8 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   best_candidate_ = -1;
 
   // 1. Predictions of obstacles and peers over the horizon, and how fast sight allows to go.
-  risk_.prepare(request);
+  encounters_.update(request);
+  risk_.prepare(request, crowd_weight());
   sight_.prepare(request);
   settings_.max_speed = sight_.speed();
   passage_.prepare(request);

@@ -8,6 +8,7 @@
 
 #include "spf/planning/plan_judge.hpp"
 #include "spf/planning/sight_limit.hpp"
+#include "spf/planning/space_time/encounter_rate.hpp"
 #include "spf/planning/space_time/motion_primitive.hpp"
 #include "spf/planning/space_time/space_time_parameters.hpp"
 #include "spf/planning/space_time/space_time_risk.hpp"
@@ -43,6 +44,7 @@ class SpaceTimePlanner final : public Planner {
   void consider(const MotionPrimitive& primitive, const PlanRequest& request, PlanResult& result,
                 double bonus = 0.0);
   void update_surface_price(const PlanRequest& request);
+  [[nodiscard]] double crowd_weight() const;
   void consider_previous(const PlanRequest& request, PlanResult& result);
   void consider_all(const PlanRequest& request, const Score& direct, PlanResult& result);
   void consider_sidesteps(const PlanRequest& request, PlanResult& result);
@@ -58,6 +60,7 @@ class SpaceTimePlanner final : public Planner {
   RobotParameters robot_;
   RollOutSettings settings_;  // its max_speed is that of the plan under way
   SpaceTimeRisk risk_;
+  EncounterRate encounters_;
   SightLimit sight_;
   PassageSpeed passage_;
   /// How the robot gets on.

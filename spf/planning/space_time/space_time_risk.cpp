@@ -39,7 +39,7 @@ SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot
   order_.reserve(64);
 }
 
-void SpaceTimeRisk::prepare(const PlanRequest& request) {
+void SpaceTimeRisk::prepare(const PlanRequest& request, double moving_weight) {
   disc_count_ = 0;
   order_.clear();
   watch_goal(request);
@@ -71,7 +71,7 @@ void SpaceTimeRisk::prepare(const PlanRequest& request) {
   }
   for (const auto& [gap, index] : order_) {
     if (index >= 0) {
-      add_track(request, tracks[static_cast<std::size_t>(index)]);
+      add_track(request, tracks[static_cast<std::size_t>(index)], moving_weight);
     } else {
       add_peer(request, peers[static_cast<std::size_t>(-1 - index)]);
     }
@@ -85,7 +85,7 @@ SpaceTimeRisk::PredictedDisc* SpaceTimeRisk::next_disc() {
   return &discs_[next];
 }
 
-void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& track) {
+void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& track, double moving_weight) {
   const double lead = request.time - track.time;  // the track may be older than the plan's start
   const ObstaclePrediction prediction{track, lead + steps_ * parameters_.step, parameters_.step,
                                       parameters_.predict_bounces ? request.world.map : nullptr};
@@ -93,7 +93,7 @@ void SpaceTimeRisk::add_track(const PlanRequest& request, const ObstacleTrack& t
   disc.id = track.id;
   disc.is_peer = false;
   disc.speed_margin = disc.speed_sigma = 0.0;
-  disc.priority_weight = 1.0;
+  disc.factor = moving_weight;
   const bool stands = track.stood > kTrackStands;
   disc.radius =
       robot_radius_ + track.state.radius + (stands ? parameters_.static_margin : parameters_.margin);
@@ -134,7 +134,7 @@ void SpaceTimeRisk::add_standing(int id, bool is_peer, const Eigen::Vector2d& po
   PredictedDisc& disc = *next_disc();
   disc.id = id;
   disc.is_peer = is_peer;
-  disc.priority_weight = 1.0;
+  disc.factor = 1.0;
   disc.radius = robot_radius_ + radius + parameters_.static_margin;
   disc.speed_margin = std::max(margin - parameters_.static_margin, 0.0);
   disc.speed_sigma = parameters_.static_sigma;
@@ -155,8 +155,8 @@ void SpaceTimeRisk::add_peer(const PlanRequest& request, const Peer& peer) {
   const bool yields =
       !request.give_way && !peer.expired &&
       (waits || (goes_first(request.world.rank(), peer.rank()) && peer.state == PeerState::moving));
-  disc.priority_weight = yields ? kLowerPriorityWeight : 1.0;
-  if (at_goal_) disc.priority_weight *= kAtGoalWeight;
+  disc.factor = yields ? kLowerPriorityWeight : 1.0;
+  if (at_goal_) disc.factor *= kAtGoalWeight;
   // What it says of its plan counts for more than what it says of its state.
   const Eigen::Vector2d now = peer.position(request.time);
   const double moves = (peer.position(request.time + steps_ * parameters_.step) - now).norm();
@@ -204,7 +204,7 @@ void SpaceTimeRisk::finish(PredictedDisc& disc, double own_sigma) {
     const auto at = static_cast<std::size_t>(k);
     disc.sigma[at] = std::hypot(disc.sigma[at], own_sigma);
     disc.weight[at] = normal_within(disc.radius / disc.sigma[at]) *
-                      (disc.is_peer ? peer_discount_ : discount_)[at] * disc.priority_weight;
+                      (disc.is_peer ? peer_discount_ : discount_)[at] * disc.factor;
   }
 }
 

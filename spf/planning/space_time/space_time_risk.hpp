@@ -25,7 +25,7 @@ class SpaceTimeRisk {
   struct PredictedDisc {
     int id = -1;
     bool is_peer = false;
-    double priority_weight = 1.0;                           ///< [1]
+    double factor = 1.0;                                    ///< [1] of `weight`, by rank or crowd
     double radius = 0.0;                                    ///< [m] both radii and the margin
     std::array<Eigen::Vector2d, kMaxSteps + 1> mean_world;  ///< [m]
     std::array<double, kMaxSteps + 1> sigma;                ///< [m]
@@ -40,8 +40,9 @@ class SpaceTimeRisk {
   SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed);
 
   /// Tabulates every obstacle and peer that can come near within the horizon (the nearest kMaxDiscs of
-  /// them). Allocates only when there are more of them than ever before.
-  void prepare(const PlanRequest& request);
+  /// them). The risk of tracks that move counts `moving_weight` [1]. Allocates only when there are more of
+  /// them than ever before.
+  void prepare(const PlanRequest& request, double moving_weight = 1.0);
 
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] double step() const { return parameters_.step; }  ///< [s]
@@ -59,7 +60,7 @@ class SpaceTimeRisk {
                              const Eigen::Vector2d& stop_world, double enough, int* worst = nullptr) const;
 
  private:
-  void add_track(const PlanRequest& request, const ObstacleTrack& track);
+  void add_track(const PlanRequest& request, const ObstacleTrack& track, double moving_weight);
   void add_peer(const PlanRequest& request, const Peer& peer);
   /// What stands is two things: something that will stay, which is passed like a wall, and something that may
   /// start, the less likely the longer it has stood.
