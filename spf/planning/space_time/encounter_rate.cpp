@@ -9,9 +9,8 @@
 namespace spf {
 namespace {
 
-constexpr double kMemory = 4.0;     // [s]
 constexpr double kLeastSeen = 0.1;  // [1] of the disc: among people who stand close it sees hardly farther
-constexpr double kMoves = 1.0;      // [s] at one position: it does not
+constexpr double kStands = 1.0;     // [s] at one position: it does not move
 
 /// How far the robot sees, by direction.
 class SeenDisc {
@@ -54,7 +53,7 @@ void EncounterRate::update(const PlanRequest& request) {
   if (request.world.tracks != nullptr) {
     for (const ObstacleTrack& track : *request.world.tracks) {
       const Eigen::Vector2d offset = track.state.position_world - request.head.position_world;
-      if (track.stood > kMoves || offset.norm() > range_) continue;
+      if (track.stood > kStands || offset.norm() > range_) continue;
       swept += 2.0 * (robot_radius_ + track.state.radius) *
                std::hypot(max_speed_, track.state.velocity_world.norm());
       seen.hide_behind(offset, track.state.radius);
