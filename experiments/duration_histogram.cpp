@@ -8,7 +8,7 @@ namespace spf {
 namespace {
 
 constexpr double kSmallest = 1e-9;  // [s] anything shorter counts as this
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 const double kLogWidth = std::log(1.02);
 
 int bucket_of(double seconds) {
@@ -39,7 +39,7 @@ void DurationHistogram::merge(const DurationHistogram& other) {
 }
 
 double DurationHistogram::percentile(double share) const {
-  if (count_ == 0) return kNone;
+  if (count_ == 0) return kEmpty;
   const double wanted = std::max(1.0, std::ceil(share * static_cast<double>(count_)));
   std::int64_t seen = 0;
   for (const auto& [bucket, count] : buckets_) {
@@ -50,10 +50,10 @@ double DurationHistogram::percentile(double share) const {
 }
 
 double DurationHistogram::minimum() const {
-  return count_ == 0 ? kNone : minimum_;
+  return count_ == 0 ? kEmpty : minimum_;
 }
 double DurationHistogram::maximum() const {
-  return count_ == 0 ? kNone : maximum_;
+  return count_ == 0 ? kEmpty : maximum_;
 }
 
 DurationHistogram DurationHistogram::from_buckets(std::map<int, std::int64_t> buckets, double minimum,

@@ -25,13 +25,18 @@ TESTS = re.compile(r"(^|/)(test|testing|test_data|fuzz|bench)/|_(ros)?test\.")
 VENDORED = re.compile(r"(^|/)(third_party|vendor|node_modules)/")
 
 
-def production_files(root):
+def files_of(root):
+    """What the repository holds, or the folder where it is none."""
     listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=root, text=True,
                             capture_output=True, check=False)
     names = listed.stdout.splitlines() if listed.returncode == 0 else [
         str(path.relative_to(root)) for path in root.rglob("*") if path.is_file()]
-    return sorted(name for name in set(names) if (root / name).is_file() and not TESTS.search(name)
-                  and not VENDORED.search(name) and not name.startswith("build/") and language_of(root / name) in CODE)
+    return sorted(name for name in set(names) if (root / name).is_file() and not name.startswith("build/"))
+
+
+def production_files(root):
+    return [name for name in files_of(root) if not TESTS.search(name) and not VENDORED.search(name)
+            and language_of(root / name) in CODE]
 
 
 def language_of(path):

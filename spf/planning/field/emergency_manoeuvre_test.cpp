@@ -11,8 +11,8 @@
 namespace spf {
 namespace {
 
-constexpr double kTime = 4.0;     // [s]
-constexpr double kHorizon = 3.0;  // [s]
+constexpr double kSceneTime = 4.0;  // [s]
+constexpr double kHorizon = 3.0;    // [s]
 
 /// Obstacles at constant velocity, which may run into a stopped robot.
 PlannerParameters planner_parameters() {
@@ -31,20 +31,20 @@ struct EmergencyScene {
   void add(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
     ObstacleTrack track;
     track.id = static_cast<int>(tracks.size());
-    track.time = kTime;
+    track.time = kSceneTime;
     track.state = {position, velocity, 0.4};
     tracks.push_back(track);
   }
   [[nodiscard]] EmergencyManoeuvre evade(const PlannerParameters& planner = planner_parameters()) const {
     ClearanceModel model{planner, robot, FieldParameters{}};
-    model.prepare({kTime, 1, &map, &tracks, &peers}, kTime, PeerSelection::all);
-    return best_emergency_manoeuvre(head, {}, kTime, kTime + kHorizon, model, robot);
+    model.prepare({kSceneTime, 1, &map, &tracks, &peers}, kSceneTime, PeerSelection::all);
+    return best_emergency_manoeuvre(head, {}, kSceneTime, kSceneTime + kHorizon, model, robot);
   }
   /// Least gap of the surfaces over the horizon, sampled: independent of the clearance model [m].
   [[nodiscard]] double gap(const Trajectory& trajectory) const {
     double least = std::numeric_limits<double>::infinity();
     for (double ahead = 0.0; ahead <= kHorizon; ahead += 0.005) {
-      const Eigen::Vector2d position = trajectory.position(kTime + ahead);
+      const Eigen::Vector2d position = trajectory.position(kSceneTime + ahead);
       for (const ObstacleTrack& track : tracks) {
         const Eigen::Vector2d centre = track.state.position_world + ahead * track.state.velocity_world;
         least = std::min(least, (position - centre).norm() - robot.radius - track.state.radius);
@@ -60,7 +60,7 @@ TEST(EmergencyManoeuvre, BrakesWhenNothingIsNear) {
   const EmergencyManoeuvre manoeuvre = scene.evade();
   EXPECT_FALSE(manoeuvre.sidestep);
   EXPECT_TRUE(manoeuvre.report.clear());
-  const Trajectory braking = braking_trajectory(scene.head, {}, kTime, scene.robot);
+  const Trajectory braking = braking_trajectory(scene.head, {}, kSceneTime, scene.robot);
   EXPECT_EQ(manoeuvre.trajectory.tail_position(), braking.tail_position());
 }
 
@@ -78,7 +78,8 @@ TEST(EmergencyManoeuvre, StepsAsideWhenStandingWouldBeGrazed) {
     EXPECT_TRUE(manoeuvre.sidestep);
     EXPECT_TRUE(manoeuvre.report.clear());
     EXPECT_GT(scene.gap(manoeuvre.trajectory), 0.0);
-    EXPECT_LT(scene.gap(braking_trajectory(scene.head, {}, kTime, scene.robot)), 0.0);  // there was a need
+    EXPECT_LT(scene.gap(braking_trajectory(scene.head, {}, kSceneTime, scene.robot)),
+              0.0);  // there was a need
   }
 }
 
@@ -90,7 +91,7 @@ TEST(EmergencyManoeuvre, KeepsOutOfTheWallItHasBehind) {
   EXPECT_TRUE(manoeuvre.report.clear());
   EXPECT_GT(scene.gap(manoeuvre.trajectory), 0.0);
   for (double ahead = 0.0; ahead < kHorizon; ahead += 0.02)
-    EXPECT_GT(manoeuvre.trajectory.position(kTime + ahead).y() + 0.4, scene.robot.radius);
+    EXPECT_GT(manoeuvre.trajectory.position(kSceneTime + ahead).y() + 0.4, scene.robot.radius);
 }
 
 TEST(EmergencyManoeuvre, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
@@ -107,10 +108,10 @@ TEST(EmergencyManoeuvre, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
     }
     const EmergencyManoeuvre manoeuvre = scene.evade();
     const Trajectory& trajectory = manoeuvre.trajectory;
-    const FlatState start = trajectory.state(kTime);
+    const FlatState start = trajectory.state(kSceneTime);
     EXPECT_LT((start.position_world - scene.head.position_world).norm(), 1e-12);
     EXPECT_LT((start.velocity_world - scene.head.velocity_world).norm(), 1e-12);
-    EXPECT_EQ(trajectory.start_time(), kTime);
+    EXPECT_EQ(trajectory.start_time(), kSceneTime);
     EXPECT_LT(trajectory.state(trajectory.end_time() - 1e-9).velocity_world.norm(), 1e-6);
     // Constant accelerations: exact to rounding.
     EXPECT_LE(trajectory.max_speed(), scene.robot.max_speed * (1.0 + 1e-9));
@@ -120,7 +121,7 @@ TEST(EmergencyManoeuvre, KeepsTheLimitsEndsStandingAndIsNoWorseThanBraking) {
     if (manoeuvre.report.clear()) {
       EXPECT_GT(gap, 0.0);
     }
-    const double braking_gap = scene.gap(braking_trajectory(scene.head, {}, kTime, scene.robot));
+    const double braking_gap = scene.gap(braking_trajectory(scene.head, {}, kSceneTime, scene.robot));
     if (braking_gap > 0.05) {
       EXPECT_TRUE(manoeuvre.report.clear());
     }
@@ -140,9 +141,10 @@ TEST(EmergencyManoeuvre, WithoutAWayOutTakesTheLatestConflict) {
   const EmergencyManoeuvre manoeuvre = scene.evade();
   EXPECT_FALSE(manoeuvre.report.clear());
   ClearanceModel model{planner_parameters(), scene.robot, FieldParameters{}};
-  model.prepare({kTime, 1, &scene.map, &scene.tracks, &scene.peers}, kTime, PeerSelection::all);
-  const Trajectory braking = braking_trajectory(scene.head, {}, kTime, scene.robot);
-  const double braking_time = model.check(braking, {kTime, kTime + kHorizon, kTime + kHorizon, 0.5}).time;
+  model.prepare({kSceneTime, 1, &scene.map, &scene.tracks, &scene.peers}, kSceneTime, PeerSelection::all);
+  const Trajectory braking = braking_trajectory(scene.head, {}, kSceneTime, scene.robot);
+  const double braking_time =
+      model.check(braking, {kSceneTime, kSceneTime + kHorizon, kSceneTime + kHorizon, 0.5}).time;
   EXPECT_GT(manoeuvre.report.time, braking_time);
   EXPECT_TRUE(manoeuvre.sidestep);
   EXPECT_GT(manoeuvre.trajectory.tail_position().x(), 0.0);
@@ -158,11 +160,11 @@ double least_gap_of_manoeuvres(const Eigen::Vector2d& obstacle_from, const Eigen
   for (int step = 0; step < 40; ++step) {
     const EmergencyManoeuvre manoeuvre = scene.evade(PlannerParameters{});
     for (int k = 0; k < 10; ++k) {
-      const Eigen::Vector2d position = manoeuvre.trajectory.position(kTime + 0.01 * k);
+      const Eigen::Vector2d position = manoeuvre.trajectory.position(kSceneTime + 0.01 * k);
       const Eigen::Vector2d centre = scene.tracks[0].state.position_world + 0.01 * k * velocity;
       least = std::min(least, (position - centre).norm() - 0.7);
     }
-    scene.head = manoeuvre.trajectory.state(kTime + 0.1);
+    scene.head = manoeuvre.trajectory.state(kSceneTime + 0.1);
     scene.tracks[0].state.position_world += 0.1 * velocity;
   }
   return least;
@@ -196,7 +198,7 @@ TEST(EmergencyManoeuvre, TellsHowLongItStaysInTheField) {
   EXPECT_TRUE(manoeuvre.sidestep);
   EXPECT_GT(manoeuvre.time_in_fields, 0.1);
   EXPECT_LT(manoeuvre.time_in_fields, 1.0);
-  const Eigen::Vector2d out = manoeuvre.trajectory.position(kTime + manoeuvre.time_in_fields);
+  const Eigen::Vector2d out = manoeuvre.trajectory.position(kSceneTime + manoeuvre.time_in_fields);
   EXPECT_GE((out - Eigen::Vector2d{0.3, 0.6}).norm(), 0.7);
 }
 

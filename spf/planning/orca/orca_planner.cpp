@@ -16,11 +16,11 @@ namespace {
 
 constexpr int kStaticSamples = 12;  // positions around the robot from which static surfaces are sought
 constexpr double kRightHandBias =
-    0.01;                            // [rad] the preferred velocity turns right by this when others are near
-constexpr double kParallel = 1e-12;  // [1] sine of the angle between lines that count as parallel
-constexpr double kSlack = 1e-10;     // [m/s] below this a violation is rounding
-constexpr double kRestSpeed = 1e-6;  // [m/s] slower counts as stopped
-constexpr double kRestTime = 1.0;    // [s] duration of a trajectory at rest
+    0.01;                             // [rad] the preferred velocity turns right by this when others are near
+constexpr double kParallel = 1e-12;   // [1] sine of the angle between lines that count as parallel
+constexpr double kTolerance = 1e-10;  // [m/s] below this a violation is rounding
+constexpr double kStopped = 1e-6;     // [m/s] slower counts as stopped
+constexpr double kStandingTime = 1.0;  // [s] duration of a trajectory at rest
 
 /// Objective of a linear programme: to be near a point, or far along a direction.
 struct Objective {
@@ -44,7 +44,7 @@ std::optional<Eigen::Vector2d> best_on_border(const std::vector<HalfPlane>& plan
     const double slope = planes[j].normal.dot(along);
     const double missing = planes[j].violation(foot);
     if (std::abs(slope) < kParallel) {
-      if (missing > kSlack) return std::nullopt;
+      if (missing > kTolerance) return std::nullopt;
     } else if (slope > 0.0) {
       low = std::max(low, missing / slope);
     } else {
@@ -65,7 +65,7 @@ std::size_t solve(const std::vector<HalfPlane>& planes, std::size_t count, const
   best = objective.target;
   if (objective.is_direction || length > max_speed) best *= max_speed / length;
   for (std::size_t i = 0; i < count; ++i) {
-    if (planes[i].violation(best) <= kSlack) continue;
+    if (planes[i].violation(best) <= kTolerance) continue;
     const std::optional<Eigen::Vector2d> next = best_on_border(planes, i, objective, max_speed);
     if (!next) return i;
     best = *next;
@@ -151,7 +151,7 @@ Eigen::Vector2d VelocityProgramme::least_violation(const std::vector<HalfPlane>&
   Eigen::Vector2d best = start;
   double largest = 0.0;
   for (std::size_t i = hard_count; i < planes.size(); ++i) {
-    if (planes[i].violation(best) <= largest + kSlack) continue;
+    if (planes[i].violation(best) <= largest + kTolerance) continue;
     projected_.assign(planes.begin(), planes.begin() + static_cast<std::ptrdiff_t>(hard_count));
     for (std::size_t j = hard_count; j < i; ++j) {
       const Eigen::Vector2d normal = planes[j].normal - planes[i].normal;
@@ -349,9 +349,10 @@ Trajectory OrcaPlanner::trajectory_for(const PlanRequest& request, const Eigen::
     if (ramp > kShortest) append_ramp(trajectory, position, present, reached, ramp);
   }
   const double speed = reached.norm();
-  if (ramp <= kShortest && speed < kRestSpeed) return Trajectory::standing(position, request.time, kRestTime);
+  if (ramp <= kShortest && speed < kStopped)
+    return Trajectory::standing(position, request.time, kStandingTime);
   if (period_ - ramp > kShortest) append_ramp(trajectory, position, reached, reached, period_ - ramp);
-  if (speed > kRestSpeed) append_ramp(trajectory, position, reached, Eigen::Vector2d::Zero(), speed / limit);
+  if (speed > kStopped) append_ramp(trajectory, position, reached, Eigen::Vector2d::Zero(), speed / limit);
   return trajectory;
 }
 

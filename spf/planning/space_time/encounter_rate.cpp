@@ -10,7 +10,7 @@ namespace spf {
 namespace {
 
 constexpr double kLeastSeen = 0.1;  // [1] of the disc: among people who stand close it sees hardly farther
-constexpr double kStands = 1.0;     // [s] at one position: it does not move
+constexpr double kStood = 1.0;      // [s] at one position: it does not move
 
 /// How far the robot sees, by direction.
 class SeenDisc {
@@ -53,7 +53,7 @@ void EncounterRate::update(const PlanRequest& request) {
   if (request.world.tracks != nullptr) {
     for (const ObstacleTrack& track : *request.world.tracks) {
       const Eigen::Vector2d offset = track.state.position_world - request.head.position_world;
-      if (track.stood > kStands || offset.norm() > range_) continue;
+      if (track.stood > kStood || offset.norm() > range_) continue;
       swept += 2.0 * (robot_radius_ + track.state.radius) *
                std::hypot(max_speed_, track.state.velocity_world.norm());
       seen.hide_behind(offset, track.state.radius);
