@@ -17,7 +17,9 @@ constexpr double kAbsoluteTolerance = 1e-10;
 constexpr int kFallbackSteps = 40;
 
 /// Makes an input step 0 that is held at its bound.
-void take_out(int input, Matrix3d& curvature, Vector3d& gradient, Matrix3d& by_state, Matrix3d& by_previous) {
+template <int N>
+void take_out(int input, Eigen::Matrix<double, N, N>& curvature, Input<N>& gradient,
+              Eigen::Matrix<double, N, 3>& by_state, Eigen::Matrix<double, N, N>& by_previous) {
   curvature.row(input).setZero();
   curvature.col(input).setZero();
   curvature(input, input) = 1.0;
@@ -28,40 +30,45 @@ void take_out(int input, Matrix3d& curvature, Vector3d& gradient, Matrix3d& by_s
 
 }  // namespace
 
-Vector3d bound_violation(const BoxLqProblem& problem, const Vector3d& state) {
+template <int N>
+Vector3d bound_violation(const BoxLqProblem<N>& problem, const Vector3d& state) {
   return (state - problem.upper).cwiseMax(0.0) - (problem.lower - state).cwiseMax(0.0);
 }
 
-double box_lq_cost(const BoxLqProblem& problem, const StateSequence& states, const InputSequence& inputs) {
+template <int N>
+double box_lq_cost(const BoxLqProblem<N>& problem, const StateSequence& states,
+                   const InputSequence<N>& inputs) {
   double cost = 0.0;
   for (int k = 0; k < problem.steps; ++k) {
-    const BoxLqStage& stage = problem.stages[as_index(k)];
+    const BoxLqStage<N>& stage = problem.stages[as_index(k)];
     const Vector3d& state = states[as_index(k + 1)];
     const Vector3d error = state - stage.reference;
     cost += error.dot(problem.state_weight.cwiseProduct(error));
     cost += problem.slack_weight * bound_violation(problem, state).squaredNorm();
     cost += problem.effort_weight * (inputs[as_index(k)] - stage.input_reference).squaredNorm();
     if (problem.rate_weight > 0.0) {
-      const Vector3d& before = k > 0 ? inputs[as_index(k - 1)] : problem.previous_input;
+      const Input<N>& before = k > 0 ? inputs[as_index(k - 1)] : problem.previous_input;
       cost += problem.rate_weight * (inputs[as_index(k)] - before).squaredNorm();
     }
   }
   return cost;
 }
 
-double BoxLqSolver::optimality_residual(const BoxLqProblem& problem, const StateSequence& states,
-                                        const InputSequence& inputs) {
+template <int N>
+double BoxLqSolver<N>::optimality_residual(const BoxLqProblem<N>& problem, const StateSequence& states,
+                                           const InputSequence<N>& inputs) {
   compute_gradient(problem, states, inputs, problem.slack_weight);
   return residual(problem, inputs);
 }
 
 // The adjoint: gradient of the cost by every input, the states following from the inputs.
-void BoxLqSolver::compute_gradient(const BoxLqProblem& problem, const StateSequence& states,
-                                   const InputSequence& inputs, double slack_weight) {
+template <int N>
+void BoxLqSolver<N>::compute_gradient(const BoxLqProblem<N>& problem, const StateSequence& states,
+                                      const InputSequence<N>& inputs, double slack_weight) {
   gradient_scale_ = 0.0;
   Vector3d adjoint = Vector3d::Zero();
   for (int k = problem.steps - 1; k >= 0; --k) {
-    const BoxLqStage& stage = problem.stages[as_index(k)];
+    const BoxLqStage<N>& stage = problem.stages[as_index(k)];
     const Vector3d& state = states[as_index(k + 1)];
     const Vector3d violation = bound_violation(problem, state);
     Vector3d& by_state = state_gradient_[as_index(k + 1)];
@@ -72,12 +79,12 @@ void BoxLqSolver::compute_gradient(const BoxLqProblem& problem, const StateSeque
       if (violation[i] != 0.0) state_curvature_[as_index(k + 1)][i] += 2.0 * slack_weight;
     adjoint += by_state;  // now the derivative by z_{k+1}
 
-    Vector3d& gradient = gradient_[as_index(k)];
+    Input& gradient = gradient_[as_index(k)];
     gradient = stage.input_matrix.transpose() * adjoint;
     gradient_scale_ = std::max(gradient_scale_, adjoint.cwiseAbs().maxCoeff());
     gradient += 2.0 * problem.effort_weight * (inputs[as_index(k)] - stage.input_reference);
     if (problem.rate_weight > 0.0) {
-      const Vector3d& before = k > 0 ? inputs[as_index(k - 1)] : problem.previous_input;
+      const Input& before = k > 0 ? inputs[as_index(k - 1)] : problem.previous_input;
       gradient += 2.0 * problem.rate_weight * (inputs[as_index(k)] - before);
       if (k + 1 < problem.steps)
         gradient -= 2.0 * problem.rate_weight * (inputs[as_index(k + 1)] - inputs[as_index(k)]);
@@ -86,74 +93,78 @@ void BoxLqSolver::compute_gradient(const BoxLqProblem& problem, const StateSeque
   }
 }
 
-double BoxLqSolver::residual(const BoxLqProblem& problem, const InputSequence& inputs) const {
+template <int N>
+double BoxLqSolver<N>::residual(const BoxLqProblem<N>& problem, const InputSequence<N>& inputs) const {
   double largest = 0.0;
   for (int k = 0; k < problem.steps; ++k) {
-    const Vector3d moved =
-        clipped(inputs[as_index(k)] - gradient_[as_index(k)], problem.input_limit) - inputs[as_index(k)];
+    const Input moved =
+        clipped<N>(inputs[as_index(k)] - gradient_[as_index(k)], problem) - inputs[as_index(k)];
     largest = std::max(largest, moved.cwiseAbs().maxCoeff());
   }
   return largest;
 }
 
-void BoxLqSolver::hold_inputs_at_bounds(const BoxLqProblem& problem, const InputSequence& inputs) {
-  const double bound =
-      (1.0 - 1e-13) * problem.input_limit;  // a step that ends on the limit may round to just inside
+template <int N>
+void BoxLqSolver<N>::hold_inputs_at_bounds(const BoxLqProblem<N>& problem, const InputSequence<N>& inputs) {
+  constexpr double kInside = 1.0 - 1e-13;  // a step that ends on the limit may round to just inside
   for (int k = 0; k < problem.steps; ++k)
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < N; ++i) {
       const double input = inputs[as_index(k)][i];
       const double gradient = gradient_[as_index(k)][i];
       held_[as_index(k)][static_cast<std::size_t>(i)] =
-          (input >= bound && gradient < 0.0) || (input <= -bound && gradient > 0.0);
+          (input >= kInside * problem.input_upper[i] && gradient < 0.0) ||
+          (input <= kInside * problem.input_lower[i] && gradient > 0.0);
     }
 }
 
 // Newton step of the free inputs as a feedback law. The value function of the steps from the current iterate
 // is a quadratic in the state's step and, with a rate weight, the previous input's step.
+template <int N>
 template <bool kRate>
-void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence& inputs) {
+void BoxLqSolver<N>::riccati_sweep(const BoxLqProblem<N>& problem, const InputSequence<N>& inputs) {
+  using Square = Eigen::Matrix<double, N, N>;
   const double rate = problem.rate_weight;
   const double own_curvature = 2.0 * (problem.effort_weight + (kRate ? rate : 0.0));
   Matrix3d value_zz = state_curvature_[as_index(problem.steps)].asDiagonal();
   Vector3d value_z = state_gradient_[as_index(problem.steps)];
-  Matrix3d value_zv = Matrix3d::Zero();
-  Matrix3d value_vv = Matrix3d::Zero();
-  Vector3d value_v = Vector3d::Zero();
+  Eigen::Matrix<double, 3, N> value_zv = Eigen::Matrix<double, 3, N>::Zero();
+  Square value_vv = Square::Zero();
+  Input value_v = Input::Zero();
 
   for (int k = problem.steps - 1; k >= 0; --k) {
-    const BoxLqStage& stage = problem.stages[as_index(k)];
-    const Matrix3d& b = stage.input_matrix;
+    const BoxLqStage<N>& stage = problem.stages[as_index(k)];
+    const Eigen::Matrix<double, 3, N>& b = stage.input_matrix;
     Feedback& feedback = feedback_[as_index(k)];
-    Vector3d change = Vector3d::Zero();
+    Input change = Input::Zero();
     if constexpr (kRate)
       change = inputs[as_index(k)] - (k > 0 ? inputs[as_index(k - 1)] : problem.previous_input);
 
-    Matrix3d cross = b.transpose() * value_zz;  // d2 / du dz', z' the next state
-    Matrix3d curvature = cross * b;
+    Eigen::Matrix<double, N, 3> cross = b.transpose() * value_zz;  // d2 / du dz', z' the next state
+    Square curvature = cross * b;
     curvature.diagonal().array() += own_curvature;
-    Vector3d gradient = 2.0 * problem.effort_weight * (inputs[as_index(k)] - stage.input_reference);
+    Input gradient = 2.0 * problem.effort_weight * (inputs[as_index(k)] - stage.input_reference);
     gradient.noalias() += b.transpose() * value_z;
     if constexpr (kRate) {
-      const Matrix3d mixed = b.transpose() * value_zv;
+      const Square mixed = b.transpose() * value_zv;
       curvature += mixed + mixed.transpose() + value_vv;
       cross += value_zv.transpose();
       gradient += 2.0 * rate * change + value_v;
     }
-    Matrix3d by_state = times_transition(cross, stage);
-    Matrix3d by_previous = Matrix3d::Zero();
+    Eigen::Matrix<double, N, 3> by_state = times_transition(cross, stage);
+    Square by_previous = Square::Zero();
     if constexpr (kRate) by_previous.diagonal().setConstant(-2.0 * rate);
 
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < N; ++i)
       if (held_[as_index(k)][static_cast<std::size_t>(i)])
-        take_out(i, curvature, gradient, by_state, by_previous);
-    Cholesky3& factor = factors_[as_index(k)] = Cholesky3{curvature};
+        take_out<N>(i, curvature, gradient, by_state, by_previous);
+    SmallCholesky<N>& factor = factors_[as_index(k)] = SmallCholesky<N>{curvature};
     feedback.step = -factor.solve(gradient);
     if (k > 0 || kRate) {
-      feedback.by_state = -factor.solve(by_state);
+      feedback.by_state = -factor.solve_columns(by_state);
     } else {
       feedback.by_state.setZero();
     }
-    if constexpr (kRate) feedback.by_previous_input = -factor.solve(by_previous);
+    if constexpr (kRate) feedback.by_previous_input = -factor.solve_columns(by_previous);
     if (k == 0) return;
 
     value_zz = transition_times(stage, times_transition(value_zz, stage));
@@ -176,23 +187,24 @@ void BoxLqSolver::riccati_sweep(const BoxLqProblem& problem, const InputSequence
 // react to the clipping of earlier ones, which is the better guess. Otherwise the scaled Newton direction is
 // projected on the box, which is a descent direction for a small enough scale (Bertsekas' projected Newton
 // method).
-double BoxLqSolver::candidate(const BoxLqProblem& problem, const InputSequence& inputs, double scale,
-                              bool clip_first) {
+template <int N>
+double BoxLqSolver<N>::candidate(const BoxLqProblem<N>& problem, const InputSequence<N>& inputs, double scale,
+                                 bool clip_first) {
   double slope = 0.0;
   Vector3d answered = Vector3d::Zero();  // the state step to which the feedback responds
-  Vector3d answered_input = Vector3d::Zero();
+  Input answered_input = Input::Zero();
   state_steps_[0].setZero();
   for (int k = 0; k < problem.steps; ++k) {
-    const BoxLqStage& stage = problem.stages[as_index(k)];
+    const BoxLqStage<N>& stage = problem.stages[as_index(k)];
     const Feedback& feedback = feedback_[as_index(k)];
-    const Vector3d& input = inputs[as_index(k)];
-    Vector3d newton = feedback.step;
+    const Input& input = inputs[as_index(k)];
+    Input newton = feedback.step;
     newton.noalias() += feedback.by_state * answered;
     if (problem.rate_weight > 0.0) newton.noalias() += feedback.by_previous_input * answered_input;
-    Vector3d& step = input_steps_[as_index(k)];
-    step = clipped(input + scale * newton, problem.input_limit) - input;
-    state_steps_[as_index(k + 1)] = advance(stage, state_steps_[as_index(k)], step);
-    answered = clip_first ? state_steps_[as_index(k + 1)] : advance(stage, answered, newton);
+    Input& step = input_steps_[as_index(k)];
+    step = clipped<N>(input + scale * newton, problem) - input;
+    state_steps_[as_index(k + 1)] = advance<N>(stage, state_steps_[as_index(k)], step);
+    answered = clip_first ? state_steps_[as_index(k + 1)] : advance<N>(stage, answered, newton);
     answered_input = clip_first ? step : newton;
     slope += gradient_[as_index(k)].dot(step);
   }
@@ -201,27 +213,28 @@ double BoxLqSolver::candidate(const BoxLqProblem& problem, const InputSequence& 
 
 // Leaves the result of the candidate steps in the trial sequences; true when the cost falls as its slope
 // predicts.
-bool BoxLqSolver::improves(const BoxLqProblem& problem, const InputSequence& inputs, double cost,
-                           double slope) {
+template <int N>
+bool BoxLqSolver<N>::improves(const BoxLqProblem<N>& problem, const InputSequence<N>& inputs, double cost,
+                              double slope) {
   if (!(slope < 0.0)) return false;
   trial_states_[0] = states_[0];
   for (int k = 0; k < problem.steps; ++k) {
-    trial_inputs_[as_index(k)] =
-        clipped(inputs[as_index(k)] + input_steps_[as_index(k)], problem.input_limit);
+    trial_inputs_[as_index(k)] = clipped<N>(inputs[as_index(k)] + input_steps_[as_index(k)], problem);
     trial_states_[as_index(k + 1)] = states_[as_index(k + 1)] + state_steps_[as_index(k + 1)];
   }
   constexpr double kShare = 1e-3;  // of the predicted decrease; rounding of the cost is tolerated
   return box_lq_cost(problem, trial_states_, trial_inputs_) <= cost + kShare * slope + 1e-15 * cost;
 }
 
-BoxLqOutcome BoxLqSolver::solve(const BoxLqProblem& problem, InputSequence& inputs, int max_steps) {
+template <int N>
+BoxLqOutcome BoxLqSolver<N>::solve(const BoxLqProblem<N>& problem, InputSequence<N>& inputs, int max_steps) {
   assert(1 <= problem.steps && problem.steps <= kMaxHorizon);
   BoxLqOutcome outcome;
   dual_inputs_ = inputs;
   outcome.solved = solve_dual(problem, dual_inputs_, max_steps, outcome.active_set_steps);
   if (outcome.solved) {
     for (int k = 0; k < problem.steps; ++k)  // a bound is met to rounding
-      inputs[as_index(k)] = clipped(dual_inputs_[as_index(k)], problem.input_limit);
+      inputs[as_index(k)] = clipped<N>(dual_inputs_[as_index(k)], problem);
     return outcome;
   }
   forget();
@@ -230,17 +243,18 @@ BoxLqOutcome BoxLqSolver::solve(const BoxLqProblem& problem, InputSequence& inpu
   return outcome;
 }
 
-void BoxLqSolver::roll_out(const BoxLqProblem& problem, const InputSequence& inputs) {
+template <int N>
+void BoxLqSolver<N>::roll_out(const BoxLqProblem<N>& problem, const InputSequence<N>& inputs) {
   states_[0] = problem.initial;
   for (int k = 0; k < problem.steps; ++k) {
-    const BoxLqStage& stage = problem.stages[as_index(k)];
-    states_[as_index(k + 1)] = advance(stage, states_[as_index(k)], inputs[as_index(k)]) + stage.offset;
+    const BoxLqStage<N>& stage = problem.stages[as_index(k)];
+    states_[as_index(k + 1)] = advance<N>(stage, states_[as_index(k)], inputs[as_index(k)]) + stage.offset;
   }
 }
 
-bool BoxLqSolver::refine(const BoxLqProblem& problem, InputSequence& inputs, int max_steps) {
-  for (int k = 0; k < problem.steps; ++k)
-    inputs[as_index(k)] = clipped(inputs[as_index(k)], problem.input_limit);
+template <int N>
+bool BoxLqSolver<N>::refine(const BoxLqProblem<N>& problem, InputSequence<N>& inputs, int max_steps) {
+  for (int k = 0; k < problem.steps; ++k) inputs[as_index(k)] = clipped<N>(inputs[as_index(k)], problem);
   roll_out(problem, inputs);
   for (int steps = 0;; ++steps) {
     compute_gradient(problem, states_, inputs, problem.slack_weight);
@@ -264,5 +278,14 @@ bool BoxLqSolver::refine(const BoxLqProblem& problem, InputSequence& inputs, int
     states_ = trial_states_;
   }
 }
+
+#define SPF_BOX_LQ(N)                                                                                    \
+  template Vector3d bound_violation<N>(const BoxLqProblem<N>&, const Vector3d&);                         \
+  template double box_lq_cost<N>(const BoxLqProblem<N>&, const StateSequence&, const InputSequence<N>&); \
+  template class BoxLqSolver<N>;
+SPF_BOX_LQ(2)
+SPF_BOX_LQ(3)
+SPF_BOX_LQ(4)
+#undef SPF_BOX_LQ
 
 }  // namespace spf

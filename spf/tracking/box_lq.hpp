@@ -7,10 +7,11 @@
 //
 //   minimise   sum_{k=1..H} |z_k - reference_k|_Q^2 + slack_weight |violation of [lower, upper] by z_k|^2
 //            + sum_{k=0..H-1} effort_weight |u_k - input_reference_k|^2 + rate_weight |u_k - u_{k-1}|^2
-//   subject to z_{k+1} = A_k z_k + B_k u_k + c_k,  |u_k| <= input_limit, z_0 and u_{-1} given (z_0 is never
-//   bounded).
+//   subject to z_{k+1} = A_k z_k + B_k u_k + c_k,  input_lower <= u_k <= input_upper, z_0 and u_{-1} given
+//   (z_0 is never bounded).
 //
-// A_k is the identity but for the heading's column: z = (x, y, heading), u = three wheel speeds.
+// A_k is the identity but for the heading's column: z = (x, y, heading); u has N components, the inputs of
+// the drive.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,43 +20,49 @@
 #include <cstddef>
 
 #include "spf/math/index.hpp"
-#include "spf/tracking/cholesky3.hpp"
 #include "spf/tracking/reference_sampler.hpp"
+#include "spf/tracking/small_cholesky.hpp"
 
 namespace spf {
 
+template <int N>
 struct BoxLqStage {
   double x_by_heading = 0.0;  ///< A(0, 2)
   double y_by_heading = 0.0;  ///< A(1, 2)
-  Eigen::Matrix3d input_matrix;
+  Eigen::Matrix<double, 3, N> input_matrix;
   Eigen::Vector3d offset;
-  Eigen::Vector3d reference;        ///< for z_{k+1}
-  Eigen::Vector3d input_reference;  ///< for u_k
+  Eigen::Vector3d reference;                    ///< for z_{k+1}
+  Eigen::Matrix<double, N, 1> input_reference;  ///< for u_k
 };
 
+template <int N>
 struct BoxLqProblem {
   int steps = 0;  ///< H, 1..kMaxHorizon
   Eigen::Vector3d initial;
-  Eigen::Vector3d previous_input;
+  Eigen::Matrix<double, N, 1> previous_input;
   Eigen::Vector3d state_weight;  ///< diagonal of Q, > 0
   double effort_weight = 0.0;
   double rate_weight = 0.0;
   double slack_weight = 0.0;
-  double input_limit = 0.0;
+  Eigen::Matrix<double, N, 1> input_lower;
+  Eigen::Matrix<double, N, 1> input_upper;
   Eigen::Vector3d lower;  ///< may be -infinity
   Eigen::Vector3d upper;  ///< may be +infinity
-  std::array<BoxLqStage, kMaxHorizon> stages;
+  std::array<BoxLqStage<N>, kMaxHorizon> stages;
 };
 
-using InputSequence = std::array<Eigen::Vector3d, kMaxHorizon>;
+template <int N>
+using InputSequence = std::array<Eigen::Matrix<double, N, 1>, kMaxHorizon>;
 using StateSequence = std::array<Eigen::Vector3d, kMaxHorizon + 1>;
 
 /// Signed violation of the soft bounds, per component.
-[[nodiscard]] Eigen::Vector3d bound_violation(const BoxLqProblem& problem, const Eigen::Vector3d& state);
+template <int N>
+[[nodiscard]] Eigen::Vector3d bound_violation(const BoxLqProblem<N>& problem, const Eigen::Vector3d& state);
 
 /// Cost of states and inputs, whatever model they obey.
-[[nodiscard]] double box_lq_cost(const BoxLqProblem& problem, const StateSequence& states,
-                                 const InputSequence& inputs);
+template <int N>
+[[nodiscard]] double box_lq_cost(const BoxLqProblem<N>& problem, const StateSequence& states,
+                                 const InputSequence<N>& inputs);
 
 struct BoxLqOutcome {
   bool solved = false;       ///< to rounding; else the inputs are feasible and the best found
@@ -63,30 +70,34 @@ struct BoxLqOutcome {
   int active_set_steps = 0;  ///< bounds activated or dropped
 };
 
-/// Fixed memory; construct once, solve often.
+/// Fixed memory; construct once, solve often. Made for N = 2, 3 and 4.
+template <int N>
 class BoxLqSolver {
  public:
+  using Input = Eigen::Matrix<double, N, 1>;
+  using Inputs = InputSequence<N>;
+  using Problem = BoxLqProblem<N>;
+
   /// Replaces `inputs`, any initial guess, by the minimiser. The bounds that were active at the last minimum
   /// are tried first.
-  BoxLqOutcome solve(const BoxLqProblem& problem, InputSequence& inputs, int max_steps);
+  BoxLqOutcome solve(const Problem& problem, Inputs& inputs, int max_steps);
   /// Drops the warm start (the last active bounds). It changes the work, not the minimum.
   void forget() { active_count_ = 0; }
 
   /// The projected Newton method alone: improves `inputs`, first clipped to the limit. True when at the
   /// minimum.
-  bool refine(const BoxLqProblem& problem, InputSequence& inputs, int max_steps);
+  bool refine(const Problem& problem, Inputs& inputs, int max_steps);
 
   /// Largest component of P(u - gradient) - u with P the projection on the input bounds: zero exactly at a
   /// minimiser. Where the stages linearise a nonlinear model at these states and inputs, it is that problem's
   /// residual too.
-  double optimality_residual(const BoxLqProblem& problem, const StateSequence& states,
-                             const InputSequence& inputs);
+  double optimality_residual(const Problem& problem, const StateSequence& states, const Inputs& inputs);
 
  private:
   struct Feedback {
-    Eigen::Vector3d step;
-    Eigen::Matrix3d by_state;
-    Eigen::Matrix3d by_previous_input;
+    Input step;
+    Eigen::Matrix<double, N, 3> by_state;
+    Eigen::Matrix<double, N, N> by_previous_input;
   };
   /// One side of one bound, as sign * value >= sign * bound. Inputs are those of step `stage`, states
   /// z_{stage + 1}.
@@ -102,7 +113,7 @@ class BoxLqSolver {
   };
   /// Change of inputs and states by a unit multiplier of a bound.
   struct Response {
-    InputSequence inputs;
+    Inputs inputs;
     StateSequence states;
   };
   static constexpr int kMaxActive = 40;
@@ -117,49 +128,46 @@ class BoxLqSolver {
     std::array<double, static_cast<std::size_t>(kMaxActive*(kMaxActive + 1) / 2)> values_;
   };
 
-  void roll_out(const BoxLqProblem& problem, const InputSequence& inputs);
-  void compute_gradient(const BoxLqProblem& problem, const StateSequence& states, const InputSequence& inputs,
+  void roll_out(const Problem& problem, const Inputs& inputs);
+  void compute_gradient(const Problem& problem, const StateSequence& states, const Inputs& inputs,
                         double slack_weight);
-  [[nodiscard]] double residual(const BoxLqProblem& problem, const InputSequence& inputs) const;
-  void hold_inputs_at_bounds(const BoxLqProblem& problem, const InputSequence& inputs);
+  [[nodiscard]] double residual(const Problem& problem, const Inputs& inputs) const;
+  void hold_inputs_at_bounds(const Problem& problem, const Inputs& inputs);
   template <bool kRate>
-  void riccati_sweep(const BoxLqProblem& problem, const InputSequence& inputs);
-  double candidate(const BoxLqProblem& problem, const InputSequence& inputs, double scale, bool clip_first);
-  bool improves(const BoxLqProblem& problem, const InputSequence& inputs, double cost, double slope);
+  void riccati_sweep(const Problem& problem, const Inputs& inputs);
+  double candidate(const Problem& problem, const Inputs& inputs, double scale, bool clip_first);
+  bool improves(const Problem& problem, const Inputs& inputs, double cost, double slope);
 
   // The dual active set, in box_lq_dual.cpp.
-  bool solve_dual(const BoxLqProblem& problem, InputSequence& inputs, int max_steps, int& steps);
-  void minimise_without_bounds(const BoxLqProblem& problem, InputSequence& inputs);
-  bool start_from_last_active_set(const BoxLqProblem& problem, InputSequence& inputs);
-  bool take_up(const BoxLqProblem& problem, InputSequence& inputs, const Bound& bound, double violation,
-               int max_steps, int& steps);
-  [[nodiscard]] double most_violated(const BoxLqProblem& problem, const InputSequence& inputs,
-                                     Bound& worst) const;
-  void respond(const BoxLqProblem& problem, const Bound& bound, Response& response);
-  [[nodiscard]] double shortfall(const BoxLqProblem& problem, const InputSequence& inputs,
-                                 const Bound& bound) const;
-  void move_along(const BoxLqProblem& problem, InputSequence& inputs, const Response& response,
-                  double amount);
+  bool solve_dual(const Problem& problem, Inputs& inputs, int max_steps, int& steps);
+  void minimise_without_bounds(const Problem& problem, Inputs& inputs);
+  bool start_from_last_active_set(const Problem& problem, Inputs& inputs);
+  bool take_up(const Problem& problem, Inputs& inputs, const Bound& bound, double violation, int max_steps,
+               int& steps);
+  [[nodiscard]] double most_violated(const Problem& problem, const Inputs& inputs, Bound& worst) const;
+  void respond(const Problem& problem, const Bound& bound, Response& response);
+  [[nodiscard]] double shortfall(const Problem& problem, const Inputs& inputs, const Bound& bound) const;
+  void move_along(const Problem& problem, Inputs& inputs, const Response& response, double amount);
   [[nodiscard]] bool is_active(const Bound& bound) const;
-  void append_active(const BoxLqProblem& problem, const Bound& bound, double multiplier);
+  void append_active(const Problem& problem, const Bound& bound, double multiplier);
   void drop_active(int position);
   bool factor_schur(int from);
   void solve_schur(ActiveVector& vector) const;
 
   StateSequence states_;
   StateSequence state_steps_;
-  InputSequence input_steps_;
-  InputSequence gradient_;
+  Inputs input_steps_;
+  Inputs gradient_;
   double gradient_scale_ = 0.0;
   std::array<Eigen::Vector3d, kMaxHorizon + 1> state_gradient_;   // of the cost of z_k alone
   std::array<Eigen::Vector3d, kMaxHorizon + 1> state_curvature_;  // its diagonal Hessian
   std::array<Feedback, kMaxHorizon> feedback_;
-  std::array<Cholesky3, kMaxHorizon> factors_;  // of the curvature by each input
-  std::array<std::array<bool, 3>, kMaxHorizon> held_;
+  std::array<SmallCholesky<N>, kMaxHorizon> factors_;  // of the curvature by each input
+  std::array<std::array<bool, static_cast<std::size_t>(N)>, kMaxHorizon> held_;
 
-  InputSequence trial_inputs_;
+  Inputs trial_inputs_;
   StateSequence trial_states_;
-  InputSequence dual_inputs_;
+  Inputs dual_inputs_;
   int active_count_ = 0;
   std::array<Bound, kMaxActive> active_;
   ActiveVector multipliers_;

@@ -17,13 +17,16 @@ using namespace box_lq;  // NOLINT: the arithmetic of the stages, of this solver
 // A bound counts as violated beyond this [m/s], [m]; inputs are clipped afterwards.
 constexpr double kViolation = 1e-11;
 
-double softness(const BoxLqProblem& problem, bool on_input) {
+template <int N>
+double softness(const BoxLqProblem<N>& problem, bool on_input) {
   return on_input ? 0.0 : 0.5 / problem.slack_weight;
 }
 
 }  // namespace
 
-bool BoxLqSolver::solve_dual(const BoxLqProblem& problem, InputSequence& inputs, int max_steps, int& steps) {
+template <int N>
+bool BoxLqSolver<N>::solve_dual(const BoxLqProblem<N>& problem, InputSequence<N>& inputs, int max_steps,
+                                int& steps) {
   minimise_without_bounds(problem, inputs);
   if (!start_from_last_active_set(problem, inputs)) return false;
   while (true) {
@@ -34,7 +37,8 @@ bool BoxLqSolver::solve_dual(const BoxLqProblem& problem, InputSequence& inputs,
   }
 }
 
-void BoxLqSolver::minimise_without_bounds(const BoxLqProblem& problem, InputSequence& inputs) {
+template <int N>
+void BoxLqSolver<N>::minimise_without_bounds(const BoxLqProblem<N>& problem, InputSequence<N>& inputs) {
   roll_out(problem, inputs);
   compute_gradient(problem, states_, inputs, 0.0);
   for (int k = 0; k < problem.steps; ++k) held_[as_index(k)].fill(false);
@@ -44,28 +48,29 @@ void BoxLqSolver::minimise_without_bounds(const BoxLqProblem& problem, InputSequ
   else
     riccati_sweep<false>(problem, inputs);
   Vector3d state_step = Vector3d::Zero();
-  Vector3d step = Vector3d::Zero();
+  Input step = Input::Zero();
   for (int k = 0; k < problem.steps; ++k) {
     const Feedback& feedback = feedback_[as_index(k)];
-    Vector3d next = feedback.step;
+    Input next = feedback.step;
     if (k > 0) next.noalias() += feedback.by_state * state_step;
     if (k > 0 && rate) next.noalias() += feedback.by_previous_input * step;
     step = next;
-    state_step = advance(problem.stages[as_index(k)], state_step, step);
+    state_step = advance<N>(problem.stages[as_index(k)], state_step, step);
     inputs[as_index(k)] += step;
     states_[as_index(k + 1)] += state_step;
   }
 }
 
 // G^-1 n for the bound's normal n: the linear-quadratic problem with the single linear term -n.
-void BoxLqSolver::respond(const BoxLqProblem& problem, const Bound& bound, Response& response) {
+template <int N>
+void BoxLqSolver<N>::respond(const BoxLqProblem<N>& problem, const Bound& bound, Response& response) {
   const bool rate = problem.rate_weight > 0.0;
   Vector3d by_state = Vector3d::Zero();
-  Vector3d by_previous = Vector3d::Zero();
+  Input by_previous = Input::Zero();
   if (!bound.on_input) by_state[bound.component] = -bound.sign;
   for (int k = bound.stage; k >= 0; --k) {
     const Feedback& feedback = feedback_[as_index(k)];
-    Vector3d gradient = problem.stages[as_index(k)].input_matrix.transpose() * by_state;
+    Input gradient = problem.stages[as_index(k)].input_matrix.transpose() * by_state;
     if (rate) gradient += by_previous;
     if (bound.on_input && k == bound.stage) gradient[bound.component] -= bound.sign;
     response.inputs[as_index(k)] = -factors_[as_index(k)].solve(gradient);
@@ -76,7 +81,7 @@ void BoxLqSolver::respond(const BoxLqProblem& problem, const Bound& bound, Respo
   }
   response.states[0].setZero();
   for (int k = 0; k < problem.steps; ++k) {
-    Vector3d& input = response.inputs[as_index(k)];
+    Input& input = response.inputs[as_index(k)];
     if (k > bound.stage) input.setZero();
     if (k > 0) {
       input.noalias() += feedback_[as_index(k)].by_state * response.states[as_index(k)];
@@ -84,30 +89,35 @@ void BoxLqSolver::respond(const BoxLqProblem& problem, const Bound& bound, Respo
         input.noalias() += feedback_[as_index(k)].by_previous_input * response.inputs[as_index(k - 1)];
     }
     response.states[as_index(k + 1)] =
-        advance(problem.stages[as_index(k)], response.states[as_index(k)], input);
+        advance<N>(problem.stages[as_index(k)], response.states[as_index(k)], input);
   }
 }
 
-double BoxLqSolver::shortfall(const BoxLqProblem& problem, const InputSequence& inputs,
-                              const Bound& bound) const {
-  if (bound.on_input)
-    return -problem.input_limit - bound.sign * inputs[as_index(bound.stage)][bound.component];
+template <int N>
+double BoxLqSolver<N>::shortfall(const BoxLqProblem<N>& problem, const InputSequence<N>& inputs,
+                                 const Bound& bound) const {
+  if (bound.on_input) {
+    const double value = inputs[as_index(bound.stage)][bound.component];
+    return bound.sign > 0.0 ? problem.input_lower[bound.component] - value
+                            : value - problem.input_upper[bound.component];
+  }
   const double value = states_[as_index(bound.stage + 1)][bound.component];
   return bound.sign > 0.0 ? problem.lower[bound.component] - value : value - problem.upper[bound.component];
 }
 
-double BoxLqSolver::most_violated(const BoxLqProblem& problem, const InputSequence& inputs,
-                                  Bound& worst) const {
+template <int N>
+double BoxLqSolver<N>::most_violated(const BoxLqProblem<N>& problem, const InputSequence<N>& inputs,
+                                     Bound& worst) const {
   double most = kViolation;
   bool found = false;
   const bool soft = problem.slack_weight > 0.0;
   for (int k = 0; k < problem.steps; ++k) {
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < std::max(N, 3); ++i) {
       for (const bool on_input : {true, false}) {
-        if (!on_input && !soft) continue;
+        if (on_input ? i >= N : (i >= 3 || !soft)) continue;
         const double value = on_input ? inputs[as_index(k)][i] : states_[as_index(k + 1)][i];
-        const double below = (on_input ? -problem.input_limit : problem.lower[i]) - value;
-        const double above = value - (on_input ? problem.input_limit : problem.upper[i]);
+        const double below = (on_input ? problem.input_lower[i] : problem.lower[i]) - value;
+        const double above = value - (on_input ? problem.input_upper[i] : problem.upper[i]);
         if (std::max(below, above) <= most) continue;
         const Bound candidate_bound{k, i, on_input, below > above ? 1.0 : -1.0};
         if (is_active(candidate_bound)) continue;
@@ -120,13 +130,15 @@ double BoxLqSolver::most_violated(const BoxLqProblem& problem, const InputSequen
   return found ? most : 0.0;
 }
 
-bool BoxLqSolver::is_active(const Bound& bound) const {
+template <int N>
+bool BoxLqSolver<N>::is_active(const Bound& bound) const {
   return std::find(active_.begin(), active_.begin() + active_count_, bound) !=
          active_.begin() + active_count_;
 }
 
-void BoxLqSolver::move_along(const BoxLqProblem& problem, InputSequence& inputs, const Response& response,
-                             double amount) {
+template <int N>
+void BoxLqSolver<N>::move_along(const BoxLqProblem<N>& problem, InputSequence<N>& inputs,
+                                const Response& response, double amount) {
   for (int k = 0; k < problem.steps; ++k) {
     inputs[as_index(k)] += amount * response.inputs[as_index(k)];
     states_[as_index(k + 1)] += amount * response.states[as_index(k + 1)];
@@ -134,7 +146,8 @@ void BoxLqSolver::move_along(const BoxLqProblem& problem, InputSequence& inputs,
 }
 
 // Activates a bound whose response lies in the first free slot, and adds its row of the Schur matrix.
-void BoxLqSolver::append_active(const BoxLqProblem& problem, const Bound& bound, double multiplier) {
+template <int N>
+void BoxLqSolver<N>::append_active(const BoxLqProblem<N>& problem, const Bound& bound, double multiplier) {
   const std::size_t last = as_index(active_count_);
   active_[last] = bound;
   multipliers_[last] = multiplier;
@@ -149,7 +162,8 @@ void BoxLqSolver::append_active(const BoxLqProblem& problem, const Bound& bound,
   schur_[last][last] += softness(problem, bound.on_input);
 }
 
-void BoxLqSolver::drop_active(int position) {
+template <int N>
+void BoxLqSolver<N>::drop_active(int position) {
   const int freed = order_[as_index(position)];
   for (int i = position; i + 1 < active_count_; ++i) {
     active_[as_index(i)] = active_[as_index(i + 1)];
@@ -166,7 +180,8 @@ void BoxLqSolver::drop_active(int position) {
 
 // Cholesky factor of the Schur matrix, rows from `from` on. False when the matrix is not positive definite:
 // active bounds that depend on each other to rounding.
-bool BoxLqSolver::factor_schur(int from) {
+template <int N>
+bool BoxLqSolver<N>::factor_schur(int from) {
   for (int i = from; i < active_count_; ++i) {
     double* const row = schur_factor_[as_index(i)];
     for (int j = 0; j <= i; ++j) {
@@ -183,7 +198,8 @@ bool BoxLqSolver::factor_schur(int from) {
   return true;
 }
 
-void BoxLqSolver::solve_schur(ActiveVector& vector) const {
+template <int N>
+void BoxLqSolver<N>::solve_schur(ActiveVector& vector) const {
   for (int i = 0; i < active_count_; ++i) {
     for (int j = 0; j < i; ++j)
       vector[as_index(i)] -= schur_factor_[as_index(i)][as_index(j)] * vector[as_index(j)];
@@ -198,7 +214,8 @@ void BoxLqSolver::solve_schur(ActiveVector& vector) const {
 
 // Multipliers for the remembered bounds, those with the wrong sign dropped until none is left: a valid start
 // of the dual method, whatever was remembered.
-bool BoxLqSolver::start_from_last_active_set(const BoxLqProblem& problem, InputSequence& inputs) {
+template <int N>
+bool BoxLqSolver<N>::start_from_last_active_set(const BoxLqProblem<N>& problem, InputSequence<N>& inputs) {
   const int remembered = active_count_;
   active_count_ = 0;
   for (int i = 0; i <= kMaxActive; ++i) order_[as_index(i)] = i;
@@ -226,8 +243,9 @@ bool BoxLqSolver::start_from_last_active_set(const BoxLqProblem& problem, InputS
 
 // Raises the multiplier of a violated bound until the bound holds, dropping active bounds whose multiplier
 // would turn negative meanwhile.
-bool BoxLqSolver::take_up(const BoxLqProblem& problem, InputSequence& inputs, const Bound& bound,
-                          double violation, int max_steps, int& steps) {
+template <int N>
+bool BoxLqSolver<N>::take_up(const BoxLqProblem<N>& problem, InputSequence<N>& inputs, const Bound& bound,
+                             double violation, int max_steps, int& steps) {
   if (active_count_ == kMaxActive) return false;
   respond(problem, bound, responses_[as_index(order_[as_index(active_count_)])]);
   const auto along = [&bound](const Response& response) {
@@ -272,5 +290,9 @@ bool BoxLqSolver::take_up(const BoxLqProblem& problem, InputSequence& inputs, co
     if (!factor_schur(blocking)) return false;
   }
 }
+
+template class BoxLqSolver<2>;
+template class BoxLqSolver<3>;
+template class BoxLqSolver<4>;
 
 }  // namespace spf

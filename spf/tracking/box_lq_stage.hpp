@@ -10,11 +10,16 @@ namespace spf::box_lq {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-inline Vector3d clipped(const Vector3d& input, double limit) {
-  return input.cwiseMax(-limit).cwiseMin(limit);
+template <int N>
+using Input = Eigen::Matrix<double, N, 1>;
+
+template <int N>
+Input<N> clipped(const Input<N>& input, const BoxLqProblem<N>& problem) {
+  return input.cwiseMax(problem.input_lower).cwiseMin(problem.input_upper);
 }
 
-inline Vector3d advance(const BoxLqStage& stage, const Vector3d& state, const Vector3d& input) {
+template <int N>
+Vector3d advance(const BoxLqStage<N>& stage, const Vector3d& state, const Input<N>& input) {
   Vector3d next = state + stage.input_matrix * input;
   next.x() += stage.x_by_heading * state.z();
   next.y() += stage.y_by_heading * state.z();
@@ -22,19 +27,23 @@ inline Vector3d advance(const BoxLqStage& stage, const Vector3d& state, const Ve
 }
 
 /// A^T v.
-inline Vector3d transposed(const BoxLqStage& stage, const Vector3d& v) {
+template <int N>
+Vector3d transposed(const BoxLqStage<N>& stage, const Vector3d& v) {
   return {v.x(), v.y(), v.z() + stage.x_by_heading * v.x() + stage.y_by_heading * v.y()};
 }
 
 /// M A.
-inline Matrix3d times_transition(const Matrix3d& m, const BoxLqStage& stage) {
-  Matrix3d product = m;
+template <int Rows, int N>
+Eigen::Matrix<double, Rows, 3> times_transition(const Eigen::Matrix<double, Rows, 3>& m,
+                                                const BoxLqStage<N>& stage) {
+  Eigen::Matrix<double, Rows, 3> product = m;
   product.col(2) += stage.x_by_heading * m.col(0) + stage.y_by_heading * m.col(1);
   return product;
 }
 
 /// A^T M.
-inline Matrix3d transition_times(const BoxLqStage& stage, const Matrix3d& m) {
+template <int N>
+Matrix3d transition_times(const BoxLqStage<N>& stage, const Matrix3d& m) {
   Matrix3d product = m;
   product.row(2) += stage.x_by_heading * m.row(0) + stage.y_by_heading * m.row(1);
   return product;

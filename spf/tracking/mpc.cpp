@@ -40,7 +40,8 @@ ModelPredictiveController::ModelPredictiveController(const MpcParameters& parame
   lq_.effort_weight = parameters_.effort_weight;
   lq_.rate_weight = parameters_.rate_weight;
   lq_.slack_weight = parameters_.slack_weight;
-  lq_.input_limit = kinematics_.max_wheel_speed();
+  lq_.input_upper.setConstant(kinematics_.max_wheel_speed());
+  lq_.input_lower = -lq_.input_upper;
   lq_.lower = {parameters_.x_lower, parameters_.y_lower, -kUnbounded};
   lq_.upper = {parameters_.x_upper, parameters_.y_upper, kUnbounded};
 }
@@ -111,10 +112,10 @@ void ModelPredictiveController::set_up(const MpcProblem& problem) {
 // z' = z + dt (A(heading) v + d) with v = W^-1 u, to first order about a heading and u. Only the heading
 // enters the nonlinearity, and its own row is linear: the predicted headings are exact.
 void ModelPredictiveController::linearise(const MpcProblem& problem, const StateSequence& about,
-                                          const InputSequence& inputs) {
+                                          const InputSequence<3>& inputs) {
   const double dt = parameters_.dt;
   for (int k = 0; k < lq_.steps; ++k) {
-    BoxLqStage& stage = lq_.stages[as_index(k)];
+    BoxLqStage<3>& stage = lq_.stages[as_index(k)];
     const double heading = about[as_index(k)].z();
     const Eigen::Matrix3d rotation = world_from_body(heading);
     stage.input_matrix.noalias() = rotation * kinematics_.body_from_wheel();
@@ -128,7 +129,7 @@ void ModelPredictiveController::linearise(const MpcProblem& problem, const State
   }
 }
 
-double ModelPredictiveController::roll_out(const MpcProblem& problem, const InputSequence& inputs,
+double ModelPredictiveController::roll_out(const MpcProblem& problem, const InputSequence<3>& inputs,
                                            StateSequence& states) const {
   states[0] = problem.initial_pose;
   for (int k = 0; k < lq_.steps; ++k) {
@@ -182,10 +183,10 @@ double ModelPredictiveController::move_towards_trial(const MpcProblem& problem, 
 }
 
 double ModelPredictiveController::try_fraction(const MpcProblem& problem, double fraction) {
-  const double limit = lq_.input_limit;
   for (int k = 0; k < lq_.steps; ++k) {
     const Vector3d input = result_.wheel_speeds[as_index(k)] + fraction * input_steps_[as_index(k)];
-    trial_inputs_[as_index(k)] = input.cwiseMax(-limit).cwiseMin(limit);  // against rounding
+    trial_inputs_[as_index(k)] =
+        input.cwiseMax(lq_.input_lower).cwiseMin(lq_.input_upper);  // against rounding
   }
   return roll_out(problem, trial_inputs_, trial_states_);
 }

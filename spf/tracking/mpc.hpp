@@ -68,7 +68,7 @@ enum class MpcStatus {
 
 struct MpcResult {
   MpcStatus status = MpcStatus::invalid_problem;
-  InputSequence wheel_speeds;      ///< u_0..u_{H-1}, within the limits
+  InputSequence<3> wheel_speeds;   ///< u_0..u_{H-1}, within the limits
   StateSequence pose;              ///< z_0..z_H predicted by the nonlinear model
   double cost = 0.0;               ///< of eq. 19 in our reading
   double optimality_residual = 0;  ///< largest component of the projected gradient; 0 at an optimum
@@ -95,20 +95,20 @@ class ModelPredictiveController {
 
  private:
   void set_up(const MpcProblem& problem);
-  void linearise(const MpcProblem& problem, const StateSequence& about, const InputSequence& inputs);
-  double roll_out(const MpcProblem& problem, const InputSequence& inputs, StateSequence& states) const;
+  void linearise(const MpcProblem& problem, const StateSequence& about, const InputSequence<3>& inputs);
+  double roll_out(const MpcProblem& problem, const InputSequence<3>& inputs, StateSequence& states) const;
   double move_towards_trial(const MpcProblem& problem, double cost);
   double try_fraction(const MpcProblem& problem, double fraction);
   const MpcResult& finish(const MpcProblem& problem, double cost);
 
   MpcParameters parameters_;
   OmniKinematics kinematics_;
-  BoxLqProblem lq_;
-  BoxLqSolver solver_;
+  BoxLqProblem<3> lq_;
+  BoxLqSolver<3> solver_;
   MpcResult result_;
-  InputSequence trial_inputs_;
-  InputSequence input_steps_;
-  InputSequence best_inputs_;
+  InputSequence<3> trial_inputs_;
+  InputSequence<3> input_steps_;
+  InputSequence<3> best_inputs_;
   StateSequence trial_states_;
 };
 

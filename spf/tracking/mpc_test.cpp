@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Cost of eq. 19 in our reading, written down once more from the definition.
-double cost_of(const MpcInstance& instance, const InputSequence& inputs) {
+double cost_of(const MpcInstance& instance, const InputSequence<3>& inputs) {
   const MpcParameters& p = instance.parameters;
   const OmniKinematics kinematics{instance.robot};
   Vector3d pose = instance.problem.initial_pose;
@@ -39,10 +39,10 @@ double cost_of(const MpcInstance& instance, const InputSequence& inputs) {
   return cost;
 }
 
-double difference_quotient(const MpcInstance& instance, const InputSequence& inputs, std::size_t k, int i,
+double difference_quotient(const MpcInstance& instance, const InputSequence<3>& inputs, std::size_t k, int i,
                            double step) {
-  InputSequence plus = inputs;
-  InputSequence minus = inputs;
+  InputSequence<3> plus = inputs;
+  InputSequence<3> minus = inputs;
   plus[k][i] += step;
   minus[k][i] -= step;
   return (cost_of(instance, plus) - cost_of(instance, minus)) / (2.0 * step);
@@ -278,57 +278,6 @@ TEST(Mpc, RefusesParametersOutOfRange) {
   parameters.x_lower = 2.0;
   parameters.x_upper = 1.0;
   EXPECT_THROW((ModelPredictiveController{parameters, kinematics}), std::invalid_argument);
-}
-
-/// A random box-constrained problem for the linear-quadratic solver alone.
-BoxLqProblem random_lq(std::uint64_t seed, int steps, bool rate) {
-  RandomStream random{seed};
-  BoxLqProblem problem;
-  problem.steps = steps;
-  const auto draw = [&random](double size) {
-    return Vector3d{size * random.normal(), size * random.normal(), size * random.normal()};
-  };
-  problem.initial = draw(0.5);
-  problem.previous_input = draw(0.5);
-  problem.state_weight = {10.0, 10.0, 2.0};
-  problem.effort_weight = 0.05;
-  problem.rate_weight = rate ? 0.1 : 0.0;
-  problem.slack_weight = 0.0;
-  problem.input_limit = 1.0;
-  problem.lower.setConstant(-1e30);
-  problem.upper.setConstant(1e30);
-  for (int k = 0; k < steps; ++k) {
-    BoxLqStage& stage = problem.stages[static_cast<std::size_t>(k)];
-    stage.x_by_heading = 0.1 * random.normal();
-    stage.y_by_heading = 0.1 * random.normal();
-    stage.input_matrix << draw(0.1), draw(0.1), draw(0.1);
-    stage.input_matrix.diagonal().array() += 0.1;
-    stage.offset = draw(0.02);
-    stage.reference = draw(0.5);
-    stage.input_reference = draw(0.5);
-  }
-  return problem;
-}
-
-// Two algorithms with nothing in common but the Riccati sweep.
-TEST(BoxLq, DualActiveSetAgreesWithProjectedNewton) {
-  BoxLqSolver dual;
-  BoxLqSolver primal;
-  for (std::uint64_t n = 0; n < 1000; ++n) {
-    SCOPED_TRACE(n);
-    const int steps = 1 + static_cast<int>(n % 12);
-    const BoxLqProblem problem = random_lq(mix(50, n), steps, n % 2 == 0);
-    InputSequence by_dual;
-    InputSequence by_primal;
-    by_dual.fill(Vector3d::Zero());
-    by_primal.fill(Vector3d::Zero());
-    const BoxLqOutcome outcome = dual.solve(problem, by_dual, 200);
-    EXPECT_TRUE(outcome.solved);
-    EXPECT_FALSE(outcome.fell_back);
-    EXPECT_TRUE(primal.refine(problem, by_primal, 200));
-    for (int k = 0; k < steps; ++k)
-      EXPECT_LT((by_dual[static_cast<std::size_t>(k)] - by_primal[static_cast<std::size_t>(k)]).norm(), 1e-8);
-  }
 }
 
 }  // namespace

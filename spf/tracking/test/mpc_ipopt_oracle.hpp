@@ -24,7 +24,7 @@ class MpcIpoptProblem : public Ipopt::TNLP {
 
   void set_problem(const MpcProblem& problem) { problem_ = problem; }
   [[nodiscard]] double cost() const { return cost_; }
-  [[nodiscard]] const InputSequence& wheel_speeds() const { return inputs_; }
+  [[nodiscard]] const InputSequence<3>& wheel_speeds() const { return inputs_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian, IndexStyleEnum& style) override {
     n = 8 * steps_;
@@ -250,7 +250,7 @@ class MpcIpoptProblem : public Ipopt::TNLP {
   int steps_;
   MpcProblem problem_;
   double cost_ = 0.0;
-  InputSequence inputs_;
+  InputSequence<3> inputs_;
 };
 
 /// An application with tight tolerances and without output; null when it cannot be initialised.
