@@ -63,8 +63,8 @@ std::vector<Prepared> prepare(int horizon, int iterations, bool walls, int count
     options.rate_weight = MpcParameters{}.rate_weight;
     Prepared next{make_mpc_instance(mix(900, static_cast<std::uint64_t>(i)), options), nullptr};
     next.instance.parameters.iterations = iterations;
-    next.mpc = std::make_unique<ModelPredictiveController>(next.instance.parameters,
-                                                           OmniKinematics{next.instance.robot});
+    next.mpc =
+        std::make_unique<ModelPredictiveController>(next.instance.parameters, Drive{next.instance.robot});
     prepared.push_back(std::move(next));
   }
   return prepared;
@@ -105,7 +105,7 @@ void BM_Ipopt(benchmark::State& state) {
   std::size_t next = 0;
   for (auto _ : state) {
     const MpcInstance& instance = prepared[next++ % prepared.size()].instance;
-    auto* oracle = new MpcIpoptProblem{instance.parameters, OmniKinematics{instance.robot}};
+    auto* oracle = new MpcIpoptProblem{instance.parameters, Drive{instance.robot}};
     const Ipopt::SmartPtr<Ipopt::TNLP> handle = oracle;
     oracle->set_problem(instance.problem);
     times.time([&] { application->OptimizeTNLP(handle); });
@@ -154,7 +154,7 @@ void BM_ControlTick(benchmark::State& state) {
   double time = 0.0;
   for (auto _ : state) {
     Pose2 measured{trajectory.position(time) + noise[next++ % noise.size()], 0.0};
-    measured.heading = trajectory.heading().state(time).heading;
+    measured.heading = trajectory.heading_state(time).heading;
     times.time([&] {
       for (int i = 4; i >= 0; --i) tracker.observe(time - 0.01 * i, measured);
       benchmark::DoNotOptimize(tracker.step(time, trajectory).wheel_speeds);

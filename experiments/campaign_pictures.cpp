@@ -9,6 +9,7 @@
 #include "report/chart_svg.hpp"
 #include "report/frame_svg.hpp"
 #include "report/table.hpp"
+#include "spf/robot/drive.hpp"
 
 namespace spf {
 namespace {
@@ -64,7 +65,7 @@ std::vector<StoredPicture> pictures_of(const Campaign& campaign, const Cell& cel
   const FinishedTrial recorded = run_trial(cell, trial, options);
   const std::string name = stem_of(cell.key) + "_trial" + std::to_string(trial);
   if (shows(campaign, CampaignFigure::wheels))
-    for (int wheel = 0; wheel < 3; ++wheel)
+    for (int wheel = 0; wheel < Drive{recorded.recording->scenario.robot}.rims(); ++wheel)
       pictures.push_back({"wheels_" + name + "_wheel" + std::to_string(wheel + 1) + ".svg",
                           wheel_chart(*recorded.recording, cell.key.method, wheel)});
   if (!shows(campaign, CampaignFigure::scenes)) return pictures;

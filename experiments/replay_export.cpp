@@ -10,6 +10,7 @@
 #include "report/replay_page.hpp"
 #include "report/table.hpp"
 #include "spf/field/probability_field.hpp"
+#include "spf/robot/drive.hpp"
 
 namespace spf {
 namespace {
@@ -166,7 +167,7 @@ ReplayRobotFrame robot_frame(ReplayData& data, const sim::RecordedRobot& robot) 
     frame.estimate_covariance = {variance, 0.0, variance};
   }
   frame.state = state_index(data, state_text(robot), kind_of(robot));
-  for (int wheel = 0; wheel < 3; ++wheel)
+  for (Eigen::Index wheel = 0; wheel < robot.wheel_speeds.size(); ++wheel)
     frame.wheel_speeds[static_cast<std::size_t>(wheel)] = robot.wheel_speeds[wheel];
   frame.to_obstacle = clearance(robot.to_dynamic);
   frame.to_peer = clearance(robot.to_peer);
@@ -240,6 +241,7 @@ void describe_robots(ReplayData& data, const sim::Recording& recording) {
     robot.id = static_cast<int>(i);
     robot.radius = scenario.robot.radius;
     robot.goal = point(scenario.robots[i].goal_world);
+    robot.wheels = static_cast<std::size_t>(Drive{scenario.robot}.rims());
     robot.wheel_speed_limit = scenario.robot.max_wheel_speed;
     robot.sensing_range = scenario.simulation.sensing.range;
     robot.cell_size = recording.map_frame.resolution;

@@ -114,7 +114,7 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
 FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options) {
   FinishedTrial finished;
   const sim::Scenario scenario = make_trial(cell.config, trial);
-  TrialWatch watch{scenario.robots.size()};
+  TrialWatch watch{scenario};
   sim::SimulationOptions simulation;
   simulation.record = options.record;
   simulation.clock = options.clock;

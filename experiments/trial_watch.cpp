@@ -4,11 +4,16 @@
 
 namespace spf {
 
+TrialWatch::TrialWatch(const sim::Scenario& scenario) : robots_(scenario.robots.size()) {
+  for (Robot& robot : robots_) robot.rims = Drive{scenario.robot}.rims();
+}
+
 void TrialWatch::frame(const sim::TrialFrame& frame) {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     robots_[i].status = (*frame.hosts)[i].agent().status();
-    largest_wheel_speed_ = std::max({largest_wheel_speed_, (*frame.wheel_speeds)[i].cwiseAbs().maxCoeff(),
-                                     (*frame.wheel_commands)[i].cwiseAbs().maxCoeff()});
+    for (const DriveInput* input : {&(*frame.wheel_speeds)[i], &(*frame.wheel_commands)[i]})
+      largest_wheel_speed_ =
+          std::max(largest_wheel_speed_, input->head(robots_[i].rims).lpNorm<Eigen::Infinity>());
   }
 }
 

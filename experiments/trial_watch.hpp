@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/trial_record.hpp"
+#include "sim/scenario.hpp"
 #include "sim/trial_listener.hpp"
 #include "sim/trial_result.hpp"
 
@@ -14,7 +15,7 @@ namespace spf {
 
 class TrialWatch : public sim::TrialListener {
  public:
-  explicit TrialWatch(std::size_t robots) : robots_(robots) {}
+  explicit TrialWatch(const sim::Scenario& scenario);
 
   void frame(const sim::TrialFrame& frame) override;
   void planned(double time, const RobotAgent& agent, double plan_ms) override;
@@ -34,6 +35,7 @@ class TrialWatch : public sim::TrialListener {
 
  private:
   struct Robot {
+    int rims = 0;  // of its drive's inputs
     std::optional<PlanOutcome> plan;
     double plan_time = 0.0;  // [s]
     std::optional<AgentStatus> status;

@@ -67,7 +67,7 @@ void tell_hosts(fuzz::Bytes bytes) {
     if (i >= 30 && i % 5 == 0) {
       const Observation observation = observation_of(bytes, now);
       const host::DriverScan driver{*observation.scan, 0.0, 0.1, {pose_of(bytes), i % 2 == 0}};
-      perception.applied(now, {1.0, -0.5, 0.2});
+      perception.applied(now, Eigen::Vector3d{1.0, -0.5, 0.2});
       if (auto sensed = perception.add_scan(observation.time, driver, now))
         planner.add_observation(*sensed, now);
       if (auto sensed = perception.add_detections(observation.time, observation.detections, now))

@@ -8,7 +8,7 @@
 
 #include "host/robot_map.hpp"
 #include "spf/planning/planner_parameters.hpp"
-#include "spf/robot/omni_dynamics.hpp"
+#include "spf/robot/drive_dynamics.hpp"
 
 namespace spf::host {
 namespace {
@@ -109,13 +109,13 @@ class Rules {
 
 /// What is planned, against what the wheels can do in the worst direction.
 void Rules::check_drive() {
-  const OmniDynamics drive{robot_};
-  const Eigen::Matrix3d& wheels = drive.kinematics().wheel_from_body();
+  const DriveDynamics drive{robot_};
+  const auto& wheels = drive.drive().wheel_from_body();
   const Named rim{"robot.max_wheel_speed", robot_.max_wheel_speed, "m/s"};
   const Named torque{"robot.max_wheel_torque", robot_.max_wheel_torque, "N m"};
   // A wheel turns fastest in a motion along its own rim.
   double speed = std::numeric_limits<double>::infinity();
-  for (int wheel = 0; wheel < 3; ++wheel)
+  for (int wheel = 0; wheel < wheels.rows(); ++wheel)
     speed = std::min(speed, rim.value / wheels.row(wheel).head<2>().norm());
   warn_above(max_speed(), speed, rim, "the wheels reach in every direction");
   warn_above({"robot.max_acceleration", robot_.max_acceleration, "m/s^2"}, drive.max_acceleration_anywhere(),
@@ -123,8 +123,7 @@ void Rules::check_drive() {
   warn_above({"robot.max_yaw_rate", robot_.max_yaw_rate, "rad/s"},
              rim.value / wheels.col(2).cwiseAbs().maxCoeff(), rim, "the wheels reach");
   warn_above({"robot.max_yaw_acceleration", robot_.max_yaw_acceleration, "rad/s^2"},
-             torque.value / drive.torques_for_acceleration({0.0, 0.0, 1.0}).cwiseAbs().maxCoeff(), torque,
-             "the wheels give");
+             drive.max_yaw_acceleration(), torque, "the wheels give");
 }
 
 /// Rates of planner and controller, against the silences that their watchdogs bear.

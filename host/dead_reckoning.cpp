@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "spf/math/angles.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 
 namespace spf::host {
 namespace {

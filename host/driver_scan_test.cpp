@@ -187,7 +187,7 @@ TEST(PerceptionHost, StraightensScansByWhatTheWheelsAreTold) {
         range_in_room(Eigen::Vector2d::Zero(),
                       driver.scan.angle_min + driver.scan.angle_increment * static_cast<double>(i));
   driver.duration = 0.1;
-  host.applied(9.95, OmniKinematics{agent.robot}.wheel_speeds_from_world({1.0, 0.0, 0.0}, 0.0));
+  host.applied(9.95, Drive{agent.robot}.input_from_world({1.0, 0.0, 0.0}, 0.0));
   const RangeScan moved = *host.add_scan(10.0, driver, 10.0)->observation.scan;
   EXPECT_NEAR(moved.ranges[360], 2.05, 0.01);                                    // ahead, half a scan later
   const RangeScan stood = *host.add_scan(11.0, driver, 11.0)->observation.scan;  // told nothing since

@@ -60,7 +60,7 @@ GoalFacts goal_facts(const PlannerHost& planner, const Localiser* localiser, dou
     here = localiser->estimate(now);
   } else {
     here.valid = true;
-    here.pose_world = {agent->committed().position(now), agent->committed().heading().state(now).heading};
+    here.pose_world = {agent->committed().position(now), agent->committed().heading_state(now).heading};
   }
   if (!here.valid) return facts;
   facts.distance = (here.pose_world.position_world - goal.position_world).norm();

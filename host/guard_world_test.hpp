@@ -13,7 +13,7 @@
 #include "spf/math/plane.hpp"
 #include "spf/math/random_stream.hpp"
 #include "spf/math/segment.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 
 namespace spf::host {
 

@@ -10,8 +10,8 @@
 namespace spf::host {
 Localiser::Localiser(const AgentParameters& agent, const HostParameters& host)
     : gate_{validated(host), validated(agent).robot},
-      kinematics_{agent.robot},
-      estimator_{agent.tracker.observer, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
+      drive_{agent.robot},
+      estimator_{agent.tracker.observer, drive_, reckoned_lag(agent.tracker, agent.robot)},
       history_{agent.team.stale_time},
       monitor_{agent.robot},
       command_silence_{host.command_silence} {}
@@ -23,7 +23,7 @@ PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
     return verdict;
   }
   if (verdict == PoseVerdict::relocalised) {
-    const Eigen::Vector3d command = estimator_.state().command;
+    const DriveInput command = estimator_.state().command;
     const Pose2 thought = estimator_.estimate(pose.time).pose_world;
     correction_.heading = angle_difference(pose.pose_world.heading, thought.heading);
     correction_.position_world =
@@ -35,7 +35,7 @@ PoseVerdict Localiser::add_pose(const PoseMeasurement& pose, double now) {
   }
   advance_to(pose.time);
   monitor_.note(pose.time, pose.pose_world,
-                kinematics_.twist_world(estimator_.state().wheel_speeds, pose.pose_world.heading));
+                drive_.twist_world(estimator_.state().wheel_speeds, pose.pose_world.heading));
   estimator_.observe(pose.time, pose.pose_world);
   history_.add(estimator_.time(), estimator_.state().estimate.pose_world);
   return verdict;
@@ -49,7 +49,7 @@ std::optional<Pose2> Localiser::pose(double time) const {
   return ahead.pose_world;
 }
 
-void Localiser::applied(double time, const Eigen::Vector3d& wheel_speeds) {
+void Localiser::applied(double time, const DriveInput& wheel_speeds) {
   if (!std::isfinite(time) || time < command_time_) return;
   estimator_.apply(time, wheel_speeds);
   command_time_ = time;
@@ -58,7 +58,7 @@ void Localiser::applied(double time, const Eigen::Vector3d& wheel_speeds) {
 
 void Localiser::advance_to(double now) {
   if (!standing_ && now - command_time_ > command_silence_) {
-    estimator_.apply(command_time_ + command_silence_, Eigen::Vector3d::Zero());
+    estimator_.apply(command_time_ + command_silence_, drive_.standstill());
     standing_ = true;
     guard_ = GuardAction::none;
   }
@@ -75,7 +75,7 @@ void Localiser::meet_clock_jump(double now) {
   if (before.estimate.valid) estimator_.observe(now, before.estimate.pose_world);
   // After a long pause (the process was suspended) a base that was told nothing has stopped by itself.
   standing_ = standing_ || now - command_time_ > command_silence_;
-  estimator_.apply(now, standing_ ? Eigen::Vector3d{Eigen::Vector3d::Zero()} : before.command);
+  estimator_.apply(now, standing_ ? drive_.standstill() : before.command);
   command_time_ = now;
 }
 

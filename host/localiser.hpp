@@ -36,7 +36,7 @@ class Localiser {
   /// Rim speeds [m/s] that the motors are told from a time on, held until the next: those that were really
   /// applied. Those that are not finite count as none. What is older than the last is ignored; the caller
   /// sees to it that nothing lies ahead of the present, where it would carry the estimate.
-  void applied(double time, const Eigen::Vector3d& wheel_speeds);
+  void applied(double time, const DriveInput& wheel_speeds);
   /// What the guard made of the last command.
   void note_guard(GuardAction action) { guard_ = action; }
   /// Without a word of what is applied for HostParameters::command_silence the wheels are taken to stand, as
@@ -69,7 +69,7 @@ class Localiser {
 
  private:
   PoseGate gate_;
-  OmniKinematics kinematics_;
+  Drive drive_;
   MotionEstimator estimator_;
   PoseHistory history_;
   MotionMonitor monitor_;

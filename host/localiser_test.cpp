@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 #include "spf/testing/allocation_guard.hpp"
 
 namespace spf::host {
@@ -20,7 +20,7 @@ PoseMeasurement pose_at(double time, double x) {
 
 /// Rim speeds of a robot that drives along x [m/s].
 Eigen::Vector3d forward(double speed) {
-  return OmniKinematics{RobotParameters{}}.wheel_speeds_from_world({speed, 0.0, 0.0}, 0.0);
+  return Drive{RobotParameters{}}.input_from_world({speed, 0.0, 0.0}, 0.0);
 }
 
 class LocaliserTest : public ::testing::Test {
@@ -160,11 +160,12 @@ TEST_F(LocaliserTest, IgnoresCommandsThatComeLate) {
 }
 
 TEST_F(LocaliserTest, AllocatesNothing) {
+  const DriveInput command = forward(0.5);
   const AllocationGuard guard;
   for (int i = 0; i < 100; ++i) {
     now += kPoseTick;
     localiser.add_pose(pose_at(now, 0.5 * now), now);
-    localiser.applied(now, forward(0.5));
+    localiser.applied(now, command);
   }
   EXPECT_EQ(guard.allocations(), 0);
 }

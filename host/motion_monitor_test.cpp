@@ -13,8 +13,8 @@ namespace spf::host {
 namespace {
 
 /// A robot that is told to drive along x, or to turn, and of whose motion a share comes true.
-struct Drive {
-  explicit Drive(double tick_of_poses = 0.01) : tick{tick_of_poses} {}
+struct Journey {
+  explicit Journey(double tick_of_poses = 0.01) : tick{tick_of_poses} {}
 
   MotionMonitor monitor{RobotParameters{}};
   RandomStream random{3};
@@ -54,7 +54,7 @@ TEST(MotionMonitor, FindsARobotThatDoesNotMoveWithinASecondAndALittle) {
   for (const double tick : {0.005, 0.01, 0.05, 0.1})
     for (const double share : {0.0, 0.1, -0.5})
       for (const double speed : {0.12, 0.5, 2.0}) {
-        Drive drive{tick};
+        Journey drive{tick};
         EXPECT_TRUE(std::isinf(drive.run(speed, 1.0, 5.0)));
         const double found = drive.run(speed, share, 5.0);
         EXPECT_GE(found, 0.5);
@@ -65,7 +65,7 @@ TEST(MotionMonitor, FindsARobotThatDoesNotMoveWithinASecondAndALittle) {
 }
 
 TEST(MotionMonitor, FindsOneThatIsKeptFromTurning) {
-  Drive drive;
+  Journey drive;
   const Eigen::Vector3d turn{0.0, 0.0, 1.0};
   EXPECT_TRUE(std::isinf(drive.run(turn, 1.0, 20.0)));  // three times around
   EXPECT_LE(drive.run(turn, 0.0, 5.0), 1.3);
@@ -73,22 +73,22 @@ TEST(MotionMonitor, FindsOneThatIsKeptFromTurning) {
 }
 
 TEST(MotionMonitor, TakesNoRobotForStuckThatMovesStandsOrIsNotWellSeen) {
-  EXPECT_TRUE(std::isinf(Drive{}.run(0.5, 1.0, 20.0)));
-  EXPECT_TRUE(std::isinf(Drive{}.run(0.5, 0.5, 20.0)));  // slips, and gets on
-  EXPECT_TRUE(std::isinf(Drive{}.run(0.0, 1.0, 20.0)));
-  EXPECT_TRUE(std::isinf(Drive{}.run(0.05, 0.0, 20.0)));  // settles on its goal
-  EXPECT_TRUE(std::isinf(Drive{0.2}.run(0.5, 1.0, 20.0)));
+  EXPECT_TRUE(std::isinf(Journey{}.run(0.5, 1.0, 20.0)));
+  EXPECT_TRUE(std::isinf(Journey{}.run(0.5, 0.5, 20.0)));  // slips, and gets on
+  EXPECT_TRUE(std::isinf(Journey{}.run(0.0, 1.0, 20.0)));
+  EXPECT_TRUE(std::isinf(Journey{}.run(0.05, 0.0, 20.0)));  // settles on its goal
+  EXPECT_TRUE(std::isinf(Journey{0.2}.run(0.5, 1.0, 20.0)));
   for (const double noise : {0.01, 0.02, 0.05, 0.1, 0.3})
     for (const double speed : {0.1, 0.3, 1.0})
       for (const double tick : {0.01, 0.05}) {
-        Drive drive{tick};
+        Journey drive{tick};
         drive.noise = noise;
         EXPECT_TRUE(std::isinf(drive.run(speed, 1.0, 300.0))) << noise << ", " << speed << ", " << tick;
       }
 }
 
 TEST(MotionMonitor, FindsAHeldRobotBehindNoiseOfAFewCentimetres) {
-  Drive drive;
+  Journey drive;
   drive.noise = 0.02;
   drive.run(0.5, 1.0, 5.0);
   EXPECT_LE(drive.run(0.5, 0.0, 5.0), 1.4);
@@ -96,19 +96,19 @@ TEST(MotionMonitor, FindsAHeldRobotBehindNoiseOfAFewCentimetres) {
 
 // The poses jump by as much as it drives in the window, against its way or along it.
 TEST(MotionMonitor, TakesAJumpOfThePosesForNeitherStandingNorDriving) {
-  Drive driven;
+  Journey driven;
   for (int i = 0; i < 20; ++i) {
     driven.pose.position_world.x() -= 0.4;
     EXPECT_TRUE(std::isinf(driven.run(0.4, 1.0, 1.5))) << i;
   }
-  Drive held;
+  Journey held;
   EXPECT_TRUE(std::isinf(held.run(0.4, 0.0, 0.8)));
   held.pose.position_world.x() += 0.4;
   EXPECT_LE(held.run(0.4, 0.0, 5.0), 1.3);
 }
 
 TEST(MotionMonitor, WaitsLongerAfterEveryAttemptAndNotAfterASuccess) {
-  Drive drive;
+  Journey drive;
   const double braking = 0.5 / RobotParameters{}.max_acceleration;
   double wait = Attempts::kFirstWait;
   for (int attempt = 1; attempt < 7; ++attempt) {
@@ -126,7 +126,7 @@ TEST(MotionMonitor, WaitsLongerAfterEveryAttemptAndNotAfterASuccess) {
 }
 
 TEST(MotionMonitor, ForgetsAcrossGapsAndResets) {
-  Drive drive;
+  Journey drive;
   EXPECT_TRUE(std::isinf(drive.run(0.5, 0.0, 0.8)));
   drive.time += 5.0;
   EXPECT_TRUE(std::isinf(drive.run(0.5, 0.0, 0.8)));
@@ -139,7 +139,7 @@ TEST(MotionMonitor, ForgetsAcrossGapsAndResets) {
 }
 
 TEST(MotionMonitor, SurvivesAnyTimesAndAllocatesNothing) {
-  Drive drive;
+  Journey drive;
   drive.run(0.5, 1.0, 2.0);
   const AllocationGuard guard;
   for (const double time : {1e300, -1e300, std::numeric_limits<double>::quiet_NaN(), 1e13, 1e13 + 1.0})

@@ -19,7 +19,7 @@ constexpr double kSpareForScans =
 PerceptionHost::PerceptionHost(const AgentParameters& agent, const HostParameters& host)
     : stale_time_{validated(agent).team.stale_time},
       host_{validated(host)},
-      kinematics_{agent.robot},
+      drive_{agent.robot},
       clock_{host.clock_jump} {}
 
 void PerceptionHost::meet_clock_jump() {
@@ -83,9 +83,9 @@ std::optional<SensedWorld> PerceptionHost::add_detections(double time, const std
   return sensed;
 }
 
-void PerceptionHost::applied(double time, const Eigen::Vector3d& wheel_speeds) {
-  if (!std::isfinite(time) || !wheel_speeds.allFinite()) return;
-  const Eigen::Vector3d twist = kinematics_.twist_body(wheel_speeds);
+void PerceptionHost::applied(double time, const DriveInput& wheel_speeds) {
+  if (!std::isfinite(time) || wheel_speeds.size() != drive_.inputs() || !wheel_speeds.allFinite()) return;
+  const Eigen::Vector3d twist = drive_.twist_body(wheel_speeds);
   motion_ = {twist.head<2>(), twist.z()};
   motion_time_ = time;
 }

@@ -12,7 +12,7 @@
 #include "host/health.hpp"
 #include "host/planner_host.hpp"
 #include "host/step_clock.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 #include "spf/team/agent_parameters.hpp"
 
 namespace spf::host {
@@ -28,7 +28,8 @@ class PerceptionHost {
   [[nodiscard]] std::optional<SensedWorld> add_detections(double time, const std::vector<Detection>& seen,
                                                           double now);
   /// Rim speeds [m/s] that the motors are told from a time on: how the robot moves while a scan is made.
-  void applied(double time, const Eigen::Vector3d& wheel_speeds);
+  [[nodiscard]] int drive_inputs() const { return drive_.inputs(); }
+  void applied(double time, const DriveInput& wheel_speeds);
 
   [[nodiscard]] ObservationVerdict last_verdict() const { return verdict_; }
   [[nodiscard]] const std::string& last_refusal() const { return refusal_; }
@@ -48,7 +49,7 @@ class PerceptionHost {
 
   double stale_time_;  // [s]
   HostParameters host_;
-  OmniKinematics kinematics_;
+  Drive drive_;
   StepClock clock_;
   double scan_time_ = kNever;
   double detections_time_ = kNever;

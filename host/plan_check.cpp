@@ -19,7 +19,7 @@ bool drivable(const Trajectory& trajectory, const PlanLimits& limits) {
   constexpr double kJoint = 0.1;  // [m] pieces of honest plans join to rounding
   if (trajectory.empty() || !std::isfinite(trajectory.start_time())) return false;
   if (!std::isfinite(trajectory.duration()) || trajectory.duration() > limits.longest) return false;
-  const HeadingState heading = trajectory.heading().state(trajectory.start_time());
+  const HeadingState heading = trajectory.heading_state(trajectory.start_time());
   if (!std::isfinite(heading.heading) || !std::isfinite(heading.yaw_rate)) return false;
   for (int i = 0; i < trajectory.piece_count(); ++i) {
     const QuinticPiece& piece = trajectory.piece(i);

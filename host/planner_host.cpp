@@ -15,7 +15,7 @@ namespace {
 
 /// Of a robot that is moved exactly as it plans.
 Pose2 pose_on(const Trajectory& plan, double time) {
-  return {plan.position(time), plan.heading().state(time).heading};
+  return {plan.position(time), plan.heading_state(time).heading};
 }
 
 }  // namespace
@@ -264,8 +264,8 @@ const PlannerOutput& PlannerHost::step(double now, const Localiser* localiser) {
 std::optional<Hold> PlannerHost::hold(const Localiser* localiser) const {
   if (localiser == nullptr || localiser->guard() == GuardAction::none) return std::nullopt;
   const MotionState motion = localiser->state();
-  const OmniKinematics kinematics{agent_parameters_.robot};
-  return Hold{kinematics.twist_world(motion.command, motion.estimate.pose_world.heading),
+  const Drive drive{agent_parameters_.robot};
+  return Hold{drive.twist_world(motion.command, motion.estimate.pose_world.heading),
               localiser->guard() == GuardAction::stops};
 }
 

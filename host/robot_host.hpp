@@ -23,10 +23,10 @@ enum class Motion {
 
 /// After a step.
 struct RobotOutput {
-  bool planned = false;                                    ///< a plan was made in this step
-  bool controlled = false;                                 ///< `wheel_speeds` was renewed in this step
-  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] rim speeds, held until the next
-  std::optional<HeardMessage> broadcast;                   ///< for the peers, when there is something to tell
+  bool planned = false;                   ///< a plan was made in this step
+  bool controlled = false;                ///< `wheel_speeds` was renewed in this step
+  DriveInput wheel_speeds;                ///< held until the next
+  std::optional<HeardMessage> broadcast;  ///< for the peers, when there is something to tell
 };
 
 class RobotHost {
@@ -44,7 +44,7 @@ class RobotHost {
   void set_switches(const Switches& switches);
   /// Told when the base did not do what the last control tick commanded: a limit on the way to its motors, or
   /// a switch of its own. Rim speeds [m/s] from a time on.
-  void applied(double time, const Eigen::Vector3d& wheel_speeds) {
+  void applied(double time, const DriveInput& wheel_speeds) {
     localiser_.applied(std::min(time, clock_.now()), wheel_speeds);
   }
 

@@ -8,13 +8,14 @@
 namespace spf::host {
 namespace {
 
+constexpr double kBelieved = 2.0;      // [1] of the drive's limits: more, no motor could run at
 constexpr double kLongestDelay = 0.5;  // [s] from process to process, differences of their clocks included
 
 }  // namespace
 
 PlannerProcess::PlannerProcess(int robot_id, const AgentParameters& agent, const HostParameters& host,
                                std::uint32_t first_sequence)
-    : largest_wheel_speed_{2.0 * OmniKinematics{validated(agent).robot}.max_wheel_speed()},
+    : drive_{validated(agent).robot},
       clock_{validated(host).clock_jump},
       localiser_{agent, host},
       planner_{robot_id, agent, host, first_sequence} {}
@@ -27,11 +28,11 @@ double PlannerProcess::tell_time(double now) {
   return clock_.now();
 }
 
-bool PlannerProcess::add_command(double time, const Eigen::Vector3d& wheel_speeds, double now,
-                                 GuardAction guard) {
+bool PlannerProcess::add_command(double time, const DriveInput& wheel_speeds, double now, GuardAction guard) {
   now = tell_time(now);
-  const bool usable = std::abs(now - time) <= kLongestDelay && wheel_speeds.allFinite() &&
-                      wheel_speeds.lpNorm<Eigen::Infinity>() <= largest_wheel_speed_;
+  const bool usable = std::abs(now - time) <= kLongestDelay && wheel_speeds.size() == drive_.inputs() &&
+                      wheel_speeds.allFinite() &&
+                      (wheel_speeds.array().abs() <= kBelieved * drive_.upper().array()).all();
   // A stamp ahead of this process's clock must not carry the estimate there.
   if (!usable) return false;
   localiser_.applied(std::min(time, now), wheel_speeds);

@@ -29,9 +29,10 @@ class PlannerProcess {
   MessageVerdict add_message(const HeardMessage& message, double now) {
     return planner_.add_message(message, tell_time(now));
   }
-  /// Rim speeds [m/s] that the motors were told by the controller's process, at a time. False when they are
+  [[nodiscard]] int drive_inputs() const { return drive_.inputs(); }
+  /// What the motors were told by the controller's process, at a time. False when they are
   /// refused: not of the present, or none that these motors could run at.
-  bool add_command(double time, const Eigen::Vector3d& wheel_speeds, double now,
+  bool add_command(double time, const DriveInput& wheel_speeds, double now,
                    GuardAction guard = GuardAction::none);
   [[nodiscard]] bool plan_due(double now) { return planner_.plan_due(tell_time(now)); }
   const PlannerOutput& step(double now) { return planner_.step(tell_time(now), &localiser_); }
@@ -45,7 +46,7 @@ class PlannerProcess {
  private:
   double tell_time(double now);
 
-  double largest_wheel_speed_;  // [m/s] that is believed
+  Drive drive_;
   StepClock clock_;
   Localiser localiser_;
   PlannerHost planner_;
@@ -68,7 +69,7 @@ class TrackerProcess {
   /// present, malformed, or half blind.
   bool add_scan(double time, const RangeScan& scan, const Pose2& sensor_in_body, double now);
   /// As RobotHost::applied.
-  void applied(double time, const Eigen::Vector3d& wheel_speeds) {
+  void applied(double time, const DriveInput& wheel_speeds) {
     localiser_.applied(std::min(time, clock_.now()), wheel_speeds);
   }
   const TrackerCommand& step(double now) { return tracker_.step(tell_time(now), localiser_); }

@@ -36,12 +36,13 @@ TrackerHost::TrackerHost(int robot_id, const AgentParameters& agent, const HostP
     : robot_id_{robot_id},
       robot_{validated(agent).robot},
       clock_error_{validated(host).clock_error},
-      kinematics_{robot_},
-      controller_{agent.tracker, kinematics_, reckoned_lag(agent.tracker, agent.robot)},
-      limiter_{robot_, kinematics_, agent.tracker.control_period},
+      drive_{robot_},
+      controller_{agent.tracker, drive_, reckoned_lag(agent.tracker, agent.robot)},
+      limiter_{robot_, drive_, agent.tracker.control_period},
       watchdog_{host, agent.team.stale_time},
       relies_on_scan_{host.relies_on_scan} {
   refuse_contradictions(contradictions(agent, host));
+  command_.wheel_speeds = drive_.standstill();
   if (host.guard.enabled) guard_ = std::make_unique<ScanGuard>(host.guard, agent, host.clock_error);
 }
 
@@ -133,11 +134,11 @@ const TrackerCommand& TrackerHost::step(double now, Localiser& localiser) {
 /// Below everything that was decided above.
 void TrackerHost::heed_guard(double now, const MotionState& state) {
   if (!guard_) return;
-  guard_->moves(now, kinematics_.twist_body(state.wheel_speeds));
+  guard_->moves(now, drive_.twist_body(state.wheel_speeds));
   command_.guard = guard_->judge(now, command_.twist_body);
   if (command_.guard.action == GuardAction::none) return;
   command_.twist_body = guard_->allowed(command_.twist_body);
-  command_.wheel_speeds = kinematics_.wheel_speeds(command_.twist_body.head<2>(), command_.twist_body.z());
+  command_.wheel_speeds = drive_.input_for(command_.twist_body);
   const bool stops = command_.guard.action == GuardAction::stops;
   if (stops && command_.stop == StopCause::none) command_.stop = StopCause::in_the_way;
 }
@@ -153,12 +154,12 @@ void TrackerHost::follow(double now, const MotionState& state) {
 }
 
 /// What leaves for the wheels: within the limits, after what is in force.
-void TrackerHost::send(double now, const Eigen::Vector3d& wanted, const MotionState& state) {
+void TrackerHost::send(double now, const DriveInput& wanted, const MotionState& state) {
   const double period = limiter_.period();
   const double elapsed = last_step_time_ == kNever ? period : now - last_step_time_;
   last_step_time_ = now;
   command_.wheel_speeds = limiter_.limited(wanted, state.command, elapsed);
-  command_.twist_body = kinematics_.twist_body(command_.wheel_speeds);
+  command_.twist_body = drive_.twist_body(command_.wheel_speeds);
 }
 
 /// By its wheels alone: what is missing of the path is not to be made up for, nor what the observer takes for
@@ -179,17 +180,15 @@ void TrackerHost::brake(double now, const MotionState& state) {
   if (braking_ && watchdog_.far((here - braking_->position(now)).norm())) braking_.reset();
   if (!braking_) {
     const double heading = command_.estimate.pose_world.heading;
-    const Eigen::Vector3d twist = kinematics_.twist_world(state.command, heading);
+    const Eigen::Vector3d twist = drive_.twist_world(state.command, heading);
     const FlatState head{here, twist.head<2>(), Eigen::Vector2d::Zero()};
     braking_ = std::make_unique<Trajectory>(braking_trajectory(head, {heading, twist.z()}, now, robot_));
   }
-  const bool moving = command_.estimate.valid && !state.command.isZero() &&
-                      now < std::max(braking_->end_time(),
-                                     braking_->heading().start_time() + braking_->heading().turn_duration());
+  const bool moving = command_.estimate.valid && !state.command.isZero() && now < braking_->rest_time();
   const TrackerOutput& output = moving ? controller_.step(now, state, *braking_) : controller_.stop();
   send(now, output.wheel_speeds, state);
   command_.braking = moving || !command_.wheel_speeds.isZero();
-  command_.reference_pose << braking_->position(now), braking_->heading().state(now).heading;
+  command_.reference_pose << braking_->position(now), braking_->heading_state(now).heading;
 }
 
 Health TrackerHost::health() const {

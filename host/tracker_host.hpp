@@ -33,9 +33,9 @@ enum class PlanVerdict {
 struct TrackerCommand {
   StopCause stop = StopCause::no_pose;  ///< why it brakes or stands; none: it follows its plan
   bool braking = false;                 ///< still moving, on the way to standstill
-  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] rims, within the limits
-  Eigen::Vector3d twist_body = Eigen::Vector3d::Zero();    ///< [m/s, m/s, rad/s] that they mean
-  GuardVerdict guard;                                      ///< on what was to be commanded
+  DriveInput wheel_speeds;              ///< within the limits
+  Eigen::Vector3d twist_body = Eigen::Vector3d::Zero();  ///< [m/s, m/s, rad/s] that they mean
+  GuardVerdict guard;                                    ///< on what was to be commanded
   StateEstimate estimate;
   Eigen::Vector3d reference_pose = Eigen::Vector3d::Zero();  ///< [m, m, rad]
 };
@@ -67,7 +67,7 @@ class TrackerHost {
   [[nodiscard]] const TrajectoryMessage& plan() const { return plan_; }
   [[nodiscard]] double plan_age(double now) const;  ///< [s] infinite without one
   [[nodiscard]] std::uint32_t plans_refused() const { return plans_refused_; }
-  [[nodiscard]] double max_wheel_speed() const { return kinematics_.max_wheel_speed(); }  ///< [m/s]
+  [[nodiscard]] double max_wheel_speed() const { return drive_.max_wheel_speed(); }  ///< [m/s]
   /// Null when it is switched off.
   [[nodiscard]] const ScanGuard* guard() const { return guard_.get(); }
 
@@ -77,13 +77,13 @@ class TrackerHost {
   void follow(double now, const MotionState& state);
   void brake(double now, const MotionState& state);
   void stop_pushing(double now, const MotionState& state);
-  void send(double now, const Eigen::Vector3d& wanted, const MotionState& state);
+  void send(double now, const DriveInput& wanted, const MotionState& state);
   void heed_guard(double now, const MotionState& state);
 
   int robot_id_;
   RobotParameters robot_;
   double clock_error_;  // [s]
-  OmniKinematics kinematics_;
+  Drive drive_;
   TrajectoryController controller_;
   CommandLimiter limiter_;
   Watchdog watchdog_;

@@ -27,10 +27,10 @@ ChartSeries line_over_time(const ReplayData& data, const ReplayRobot& robot, int
 std::string wheel_chart(const ReplayData& data, const ReplayRobot& robot, const std::string& name) {
   LineChart chart =
       chart_over_time(data, "Wheel speeds of " + name + " over time, with their limit", "rim speed [m/s]");
-  for (const int wheel : {0, 1, 2})
-    chart.series.push_back(line_over_time(data, robot, wheel, [wheel](const ReplayRobotFrame& frame) {
-      return frame.wheel_speeds[static_cast<std::size_t>(wheel)];
-    }));
+  for (std::size_t wheel = 0; wheel < robot.wheels; ++wheel)
+    chart.series.push_back(
+        line_over_time(data, robot, static_cast<int>(wheel),
+                       [wheel](const ReplayRobotFrame& frame) { return frame.wheel_speeds[wheel]; }));
   const double limit = robot.wheel_speed_limit;
   if (std::isfinite(limit) && limit > 0.0)
     chart.limits = {{"limit \xC2\xB1" + fixed(limit, 2) + " m/s", limit}, {"", -limit}};

@@ -69,7 +69,7 @@ struct ReplayRobotFrame {
   ReplayPose estimate{kUnknown, kUnknown, kUnknown};  ///< what the observer says
   ReplayCovariance estimate_covariance;               ///< of the estimated position
   int state = 0;                                      ///< index into ReplayData::states
-  std::array<double, 3> wheel_speeds{};               ///< [m/s] at the rims
+  std::array<double, 6> wheel_speeds{};               ///< [m/s] at the rims of the first `wheels`
   ReplayClearance to_obstacle, to_peer, to_static;    ///< [m]
   double control_time = kUnknown;                     ///< [s] of computing, one control tick
   std::vector<ReplayTrack> tracks;                    ///< perceived moving obstacles
@@ -105,6 +105,7 @@ struct ReplayRobot {
   int id = 0;
   double radius = 0.3;  ///< [m]
   ReplayPoint goal;
+  std::size_t wheels = 3;                ///< at most 6; of a car 1: its rear axle
   double wheel_speed_limit = kUnknown;   ///< [m/s]
   double sensing_range = kUnknown;       ///< [m]
   std::vector<ReplayRobotFrame> frames;  ///< one per frame_interval, the first at time 0

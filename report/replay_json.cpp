@@ -150,7 +150,7 @@ json robot_json(const ReplayRobot& robot, SharedTexts& texts) {
   std::vector<Ellipse> sigma;
   for (const Frame& frame : frames) sigma.push_back(one_sigma(frame.estimate_covariance));
   json wheels = json::array();
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < robot.wheels; ++i) {
     wheels.push_back(column(frames, kLengthStep, [i](const Frame& f) { return f.wheel_speeds[i]; }));
   }
   json plans = json::array();

@@ -7,7 +7,7 @@
 #include "sim/families.hpp"
 #include "sim/input_log.hpp"
 #include "sim/simulation.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 
 namespace spf::sim {
 namespace {
@@ -52,13 +52,13 @@ TEST_P(OrdinaryTrials, NobodyIsTakenForStuckAndCommandsKeepTheLimits) {
     EXPECT_EQ(robot.stood[static_cast<std::size_t>(StopCause::stuck)], 0.0);
 
   const RobotParameters& robot = scenario.robot;
-  const OmniKinematics kinematics{robot};
+  const Drive drive{robot};
   Eigen::Vector3d before = Eigen::Vector3d::Zero();  // in body
   int commands = 0;
   for (const LoggedTick& tick : log.ticks()) {
     if (!tick.action.controlled) continue;
     ++commands;
-    const Eigen::Vector3d twist = kinematics.twist_body(tick.action.wheel_speeds);
+    const Eigen::Vector3d twist = drive.twist_body(tick.action.wheel_speeds);
     const Eigen::Vector3d change = twist - twist_in_body(before, kControlPeriod * before.z());
     ASSERT_LE(twist.head<2>().norm(), 1.01 * robot.max_speed) << tick.time;
     ASSERT_LE(std::abs(twist.z()), 1.01 * robot.max_yaw_rate) << tick.time;

@@ -27,8 +27,8 @@ struct RecordedRobot {
   Pose2 pose;                                                ///< ground truth
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]
   AgentEstimate estimate;
-  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();    ///< [m/s] true rim speeds
-  Eigen::Vector3d wheel_commands = Eigen::Vector3d::Zero();  ///< [m/s] as commanded
+  DriveInput wheel_speeds;    ///< true
+  DriveInput wheel_commands;  ///< as commanded
   AgentStatus status;
   bool wrecked = false;
   RecordedClearance to_dynamic, to_peer, to_static;

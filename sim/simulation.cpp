@@ -55,8 +55,8 @@ struct Simulation::Implementation {
   SimulationOptions options;
   World world;
   std::vector<host::RobotHost> robots;
-  OmniKinematics kinematics;
-  std::vector<Eigen::Vector3d> wheel_speeds;  // [m/s] true; filled for listeners
+  Drive drive;
+  std::vector<DriveInput> wheel_speeds;  // true; filled for listeners
   Radio radio;
   AgentMeter meter;
   std::unique_ptr<Recorder> recorder;
@@ -75,7 +75,7 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
                                            const SimulationOptions& given_options)
     : options{given_options},
       world{scenario},
-      kinematics{scenario.robot},
+      drive{scenario.robot},
       radio{scenario},
       meter{scenario.robots.size()} {
   const AgentParameters parameters = agent_parameters_for(scenario, agent);
@@ -95,7 +95,7 @@ Simulation::Implementation::Implementation(const Scenario& scenario, const Agent
     robots.back().planner().set_goal({task.goal_world, task.goal_heading});
     robots.back().start(map, task.start, 0.0);
   }
-  wheel_speeds.assign(count, Eigen::Vector3d::Zero());
+  wheel_speeds.assign(count, drive.standstill());
   desks.resize(count);
   last_control_us.assign(count, 0.0);
 }
@@ -232,7 +232,7 @@ void Simulation::Implementation::place_ideally() {
     if (!world.robots()[i].active()) continue;
     const Trajectory& plan = robots[i].agent().committed();
     const FlatState state = plan.state(to);
-    world.place(static_cast<int>(i), {state.position_world, plan.heading().state(to).heading},
+    world.place(static_cast<int>(i), {state.position_world, plan.heading_state(to).heading},
                 state.velocity_world);
   }
 }
@@ -254,11 +254,11 @@ void Simulation::Implementation::tell_frame() {
   const std::vector<RobotTruth>& truth = world.robots();
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (ideal()) {
-      const double yaw_rate = robots[i].agent().committed().heading().state(now()).yaw_rate;
+      const double yaw_rate = robots[i].agent().committed().heading_state(now()).yaw_rate;
       const Eigen::Vector3d twist{truth[i].velocity_world.x(), truth[i].velocity_world.y(), yaw_rate};
-      wheel_speeds[i] = kinematics.wheel_speeds_from_world(twist, truth[i].pose.heading);
+      wheel_speeds[i] = drive.input_from_world(twist, truth[i].pose.heading);
     } else {
-      wheel_speeds[i] = world.plant(static_cast<int>(i)).wheel_speeds();
+      wheel_speeds[i] = world.plant(static_cast<int>(i)).input();
     }
   }
   const TrialFrame frame{now(),

@@ -18,8 +18,8 @@ struct TrialFrame {
   const std::vector<RobotTruth>* robots = nullptr;
   const std::vector<DynamicObstacle>* dynamic_obstacles = nullptr;
   const std::vector<host::RobotHost>* hosts = nullptr;
-  const std::vector<Eigen::Vector3d>* wheel_speeds = nullptr;    ///< [m/s] true
-  const std::vector<Eigen::Vector3d>* wheel_commands = nullptr;  ///< [m/s]
+  const std::vector<DriveInput>* wheel_speeds = nullptr;    ///< [m/s] true
+  const std::vector<DriveInput>* wheel_commands = nullptr;  ///< [m/s]
   const std::vector<double>* control_us = nullptr;  ///< [us] of the last control tick, 0 without a clock
   const StaticShapes* shapes = nullptr;
 };
@@ -36,7 +36,7 @@ struct RobotAction {
   bool planned = false;        ///< it was decided what to do
   bool asked_planner = false;  ///< for that: not when there was a cause to stop
   bool controlled = false;
-  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] commanded, when controlled
+  DriveInput wheel_speeds;  ///< commanded, when controlled
 };
 
 /// All calls come from the thread that runs the trial, in the order of time.

@@ -31,7 +31,7 @@ World::World(const Scenario& scenario)
       pose_ticks_{ticks_between(plant_rate_, scenario.simulation.pose_noise.rate)},
       observation_ticks_{ticks_between(plant_rate_, scenario.simulation.sensing.rate)},
       time_limit_{time_limit_of(scenario)},
-      commands_(scenario.robots.size(), Eigen::Vector3d::Zero()),
+      commands_(scenario.robots.size(), Drive{scenario.robot}.standstill()),
       grid_{std::max(1.0, scenario.simulation.sensing.range)},
       dynamic_obstacles_{scenario},
       sensing_{scenario},

@@ -11,7 +11,7 @@
 #include "sim/sensing.hpp"
 #include "sim/trial_meter.hpp"
 #include "spf/math/index.hpp"
-#include "spf/robot/omni_dynamics.hpp"
+#include "spf/robot/drive_dynamics.hpp"
 
 namespace spf::sim {
 
@@ -45,7 +45,7 @@ class World {
   void observe(int robot, Observation& observation);
 
   /// Commanded wheel speeds [m/s], held until the next call (TrackingMode::full).
-  void command(int robot, const Eigen::Vector3d& wheel_speeds) { commands_[as_index(robot)] = wheel_speeds; }
+  void command(int robot, const DriveInput& wheel_speeds) { commands_[as_index(robot)] = wheel_speeds; }
   /// Sets the robot's pose and velocity at the end of the tick (TrackingMode::ideal).
   void place(int robot, const Pose2& pose_world, const Eigen::Vector2d& velocity_world);
 
@@ -60,10 +60,8 @@ class World {
     return dynamic_obstacles_.all();
   }
   [[nodiscard]] const StaticShapes& shapes() const { return monitor_.shapes(); }
-  [[nodiscard]] const std::vector<Eigen::Vector3d>& commands() const {
-    return commands_;
-  }  ///< [m/s] by robot
-  [[nodiscard]] const OmniDynamics& plant(int robot) const { return plants_[as_index(robot)]; }
+  [[nodiscard]] const std::vector<DriveInput>& commands() const { return commands_; }  ///< [m/s] by robot
+  [[nodiscard]] const DriveDynamics& plant(int robot) const { return plants_[as_index(robot)]; }
   [[nodiscard]] const std::vector<Eigen::Vector2d>& positions() const {
     return positions_;
   }  ///< [m] of robots
@@ -101,9 +99,9 @@ class World {
   bool observation_due_ = false;
   std::size_t contacts_seen_ = 0;
   std::vector<RobotTruth> robots_;
-  std::vector<OmniDynamics> plants_;
-  std::vector<Eigen::Vector3d> commands_;  // [m/s] by robot
-  std::vector<Placement> placements_;      // by robot, of TrackingMode::ideal
+  std::vector<DriveDynamics> plants_;
+  std::vector<DriveInput> commands_;   // by robot
+  std::vector<Placement> placements_;  // by robot, of TrackingMode::ideal
   std::vector<Eigen::Vector2d> positions_;
   UniformGrid grid_;
   DynamicObstacles dynamic_obstacles_;

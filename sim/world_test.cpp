@@ -29,7 +29,7 @@ Scenario lanes(int robots, TrackingMode tracking = TrackingMode::full) {
 Eigen::Vector3d wheels_for(const World& world, int robot, const Eigen::Vector2d& velocity) {
   const double heading = world.robots()[static_cast<std::size_t>(robot)].pose.heading;
   const Eigen::Vector3d twist{velocity.x(), velocity.y(), 0.0};
-  return world.plant(robot).kinematics().wheel_speeds_from_world(twist, heading);
+  return world.plant(robot).drive().input_from_world(twist, heading);
 }
 
 void run_until(World& world, double time) {

@@ -12,9 +12,11 @@ constexpr int kMostSteps = 50;             // in one call; a longer gap is bridg
 
 }  // namespace
 
-MotionEstimator::MotionEstimator(const ObserverParameters& parameters, const OmniKinematics& kinematics,
-                                 double motor_lag)
-    : kinematics_{kinematics}, lag_{motor_lag}, motion_{PoseObserver{parameters}, Eigen::Vector3d::Zero()} {}
+MotionEstimator::MotionEstimator(const ObserverParameters& parameters, const Drive& drive, double motor_lag)
+    : drive_{drive},
+      lag_{motor_lag},
+      motion_{PoseObserver{parameters}, drive.standstill()},
+      command_{drive.standstill()} {}
 
 void MotionEstimator::reset() {
   motion_.observer.reset();
@@ -37,13 +39,13 @@ void MotionEstimator::advance(Motion& motion, double duration) const {
   const double dt = duration / steps;
   const double decay = lag_ > 0.0 ? std::exp(-dt / lag_) : 0.0;
   for (int i = 0; i < steps; ++i) {
-    const Eigen::Vector3d missing = motion.wheel_speeds - command_;
-    const Eigen::Vector3d mean = command_ + (lag_ / dt * (1.0 - decay)) * missing;
+    const DriveInput missing = motion.wheel_speeds - command_;
+    const DriveInput mean = command_ + (lag_ / dt * (1.0 - decay)) * missing;
     motion.wheel_speeds = command_ + decay * missing;
     const StateEstimate estimate = motion.observer.estimate();
-    const double yaw_rate = kinematics_.twist_body(mean).z() + estimate.disturbance_world.z();
+    const double yaw_rate = drive_.twist_body(mean).z() + estimate.disturbance_world.z();
     const double mid_heading = estimate.pose_world.heading + 0.5 * dt * yaw_rate;
-    motion.observer.predict(dt, kinematics_.twist_world(mean, mid_heading));
+    motion.observer.predict(dt, drive_.twist_world(mean, mid_heading));
   }
 }
 
@@ -55,18 +57,18 @@ MeasurementOutcome MotionEstimator::observe(double time, const Pose2& measured_w
   Pose2 present = measured_world;
   if (delay > 0.0) {
     const StateEstimate estimate = motion_.observer.estimate();
-    const Eigen::Vector3d moved =
-        delay *
-        (kinematics_.twist_world(motion_.wheel_speeds, measured_world.heading) + estimate.disturbance_world);
+    const Eigen::Vector3d moved = delay * (drive_.twist_world(motion_.wheel_speeds, measured_world.heading) +
+                                           estimate.disturbance_world);
     present.position_world += moved.head<2>();
     present.heading += moved.z();
   }
   return motion_.observer.correct(present);
 }
 
-void MotionEstimator::apply(double time, const Eigen::Vector3d& wheel_speeds) {
+void MotionEstimator::apply(double time, const DriveInput& wheel_speeds) {
   advance_to(time);
-  command_ = wheel_speeds.allFinite() ? wheel_speeds : Eigen::Vector3d::Zero();
+  const bool usable = wheel_speeds.size() == command_.size() && wheel_speeds.allFinite();
+  command_ = usable ? wheel_speeds : drive_.standstill();
   if (lag_ <= 0.0) motion_.wheel_speeds = command_;
 }
 

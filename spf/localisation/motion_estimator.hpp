@@ -7,15 +7,15 @@
 #include <Eigen/Core>
 
 #include "spf/localisation/observer.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 
 namespace spf {
 
 /// The estimate at one instant, as a controller needs it.
 struct MotionState {
   StateEstimate estimate;
-  Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  ///< [m/s] rim speeds after the motors' lag
-  Eigen::Vector3d command = Eigen::Vector3d::Zero();       ///< [m/s] rim speeds applied and still held
+  DriveInput wheel_speeds;  ///< after the motors' lag
+  DriveInput command;       ///< applied and still held
 };
 
 /// Never throws or allocates after construction.
@@ -23,13 +23,13 @@ class MotionEstimator {
  public:
   /// `motor_lag` is the first-order lag of the wheels in the model [s], 0 = none. Throws
   /// std::invalid_argument on parameters out of range.
-  MotionEstimator(const ObserverParameters& parameters, const OmniKinematics& kinematics, double motor_lag);
+  MotionEstimator(const ObserverParameters& parameters, const Drive& drive, double motor_lag);
 
   /// Takes in a pose measured at a time [s]. One that arrives late, up to half a second, is propagated to the
   /// present with the motion since then; an older one is ignored (`invalid`).
   MeasurementOutcome observe(double time, const Pose2& measured_world);
   /// Rim speeds [m/s] applied to the motors from a time [s] on; held until the next call.
-  void apply(double time, const Eigen::Vector3d& wheel_speeds);
+  void apply(double time, const DriveInput& wheel_speeds);
   /// Forgets the estimate and the command, as after the robot was carried away.
   void reset();
 
@@ -45,14 +45,14 @@ class MotionEstimator {
  private:
   struct Motion {
     PoseObserver observer;
-    Eigen::Vector3d wheel_speeds;  // [m/s]
+    DriveInput wheel_speeds;
   };
   void advance(Motion& motion, double duration) const;
 
-  OmniKinematics kinematics_;
+  Drive drive_;
   double lag_;  // [s]
   Motion motion_;
-  Eigen::Vector3d command_ = Eigen::Vector3d::Zero();  // [m/s]
+  DriveInput command_;
   bool has_time_ = false;
   double time_ = 0.0;  // [s] of the estimate
 };

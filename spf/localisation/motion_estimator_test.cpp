@@ -13,17 +13,17 @@ namespace {
 
 constexpr double kLag = 0.2;  // [s]
 
-OmniKinematics kinematics() {
-  return OmniKinematics{RobotParameters{}};
+Drive drive() {
+  return Drive{RobotParameters{}};
 }
 
 Eigen::Vector3d wheels_for(const Eigen::Vector3d& twist_body) {
-  return kinematics().wheel_speeds_from_world(twist_body, 0.0);
+  return drive().input_from_world(twist_body, 0.0);
 }
 
 // The closed form of a first-order lag from rest: v t - v T (1 - exp(-t / T)).
 TEST(MotionEstimator, FollowsTheAppliedCommandThroughTheLag) {
-  MotionEstimator estimator{ObserverParameters{}, kinematics(), kLag};
+  MotionEstimator estimator{ObserverParameters{}, drive(), kLag};
   estimator.observe(0.0, Pose2{});
   estimator.apply(0.0, wheels_for({0.8, 0.0, 0.0}));
   const double expected = 0.8 * (0.5 - kLag * (1.0 - std::exp(-0.5 / kLag)));
@@ -35,7 +35,7 @@ TEST(MotionEstimator, FollowsTheAppliedCommandThroughTheLag) {
 
 // What a controller asked for does not matter: something else made the robot stop.
 TEST(MotionEstimator, BelievesTheCommandThatWasApplied) {
-  MotionEstimator estimator{ObserverParameters{}, kinematics(), 0.0};
+  MotionEstimator estimator{ObserverParameters{}, drive(), 0.0};
   estimator.observe(0.0, Pose2{});
   estimator.apply(0.0, wheels_for({1.0, 0.0, 0.0}));
   estimator.apply(0.3, Eigen::Vector3d::Zero());
@@ -44,7 +44,7 @@ TEST(MotionEstimator, BelievesTheCommandThatWasApplied) {
 }
 
 TEST(MotionEstimator, EstimateChangesNothing) {
-  MotionEstimator estimator{ObserverParameters{}, kinematics(), kLag};
+  MotionEstimator estimator{ObserverParameters{}, drive(), kLag};
   estimator.observe(0.0, Pose2{});
   estimator.apply(0.0, wheels_for({0.5, 0.2, 0.3}));
   const StateEstimate first = estimator.estimate(0.7);
@@ -57,19 +57,19 @@ TEST(MotionEstimator, EstimateChangesNothing) {
 
 TEST(MotionEstimator, SurvivesWhatIsNotFinite) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  MotionEstimator estimator{ObserverParameters{}, kinematics(), kLag};
+  MotionEstimator estimator{ObserverParameters{}, drive(), kLag};
   EXPECT_EQ(estimator.observe(kNan, Pose2{}), MeasurementOutcome::invalid);
   EXPECT_EQ(estimator.observe(0.0, Pose2{{kNan, 0.0}, 0.0}), MeasurementOutcome::invalid);
   EXPECT_FALSE(estimator.state().estimate.valid);
   estimator.observe(0.0, Pose2{{1.0, 2.0}, 0.5});
-  estimator.apply(0.1, {kNan, 1.0, 1.0});  // counts as stopped
+  estimator.apply(0.1, Eigen::Vector3d{kNan, 1.0, 1.0});  // counts as stopped
   estimator.apply(kNan, wheels_for({1.0, 0.0, 0.0}));
   estimator.advance_to(kNan);
   EXPECT_TRUE(estimator.estimate(5.0).pose_world.position_world.allFinite());
 }
 
 TEST(MotionEstimator, ForgetsWhenReset) {
-  MotionEstimator estimator{ObserverParameters{}, kinematics(), kLag};
+  MotionEstimator estimator{ObserverParameters{}, drive(), kLag};
   estimator.observe(0.0, Pose2{{1.0, 2.0}, 0.5});
   estimator.apply(0.0, wheels_for({1.0, 0.0, 0.0}));
   estimator.reset();
@@ -81,7 +81,7 @@ TEST(MotionEstimator, ForgetsWhenReset) {
 }
 
 TEST(MotionEstimator, DoesNotAllocate) {
-  MotionEstimator estimator{ObserverParameters{}, kinematics(), kLag};
+  MotionEstimator estimator{ObserverParameters{}, drive(), kLag};
   const AllocationGuard guard;
   for (int i = 0; i < 50; ++i) {
     estimator.observe(0.01 * i, Pose2{{0.01 * i, 0.0}, 0.0});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/planning/steering.hpp"
+
 namespace spf {
 namespace {
 
@@ -25,6 +27,22 @@ QuinticPiece constant_jerk_piece(FlatState& state, const Eigen::Vector2d& jerk, 
   return piece;
 }
 
+/// Along the heading, turning until that stops too.
+Trajectory steered_braking(const FlatState& head, const HeadingState& heading, double start_time,
+                           const RobotParameters& robot) {
+  constexpr int kPieces = 20;
+  const Steering steering{robot};
+  Trajectory trajectory{start_time};
+  const SteeredState state = steering.state_of(head, heading);
+  steering.append_braking(state, kPieces, trajectory);
+  if (trajectory.empty()) {
+    SteeredState rest = state;
+    rest.speed = rest.yaw_rate = 0.0;
+    Steering::append(rest, rest, kRestTime, trajectory);
+  }
+  return trajectory;
+}
+
 }  // namespace
 
 HeadingProfile stopping_heading(const HeadingState& heading, double start_time,
@@ -37,6 +55,7 @@ HeadingProfile stopping_heading(const HeadingState& heading, double start_time,
 
 Trajectory braking_trajectory(const FlatState& head, const HeadingState& heading, double start_time,
                               const RobotParameters& robot) {
+  if (steers(robot.drive)) return steered_braking(head, heading, start_time, robot);
   const HeadingProfile turn = stopping_heading(heading, start_time, robot);
   const double head_acceleration = head.acceleration_world.norm();
   const double limit = robot.max_acceleration;

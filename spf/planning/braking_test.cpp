@@ -77,9 +77,9 @@ TEST(Braking, StopsTheHeadingToo) {
     FlatState head;
     head.velocity_world = {1.0, 0.0};
     const Trajectory braking = braking_trajectory(head, {3.0, yaw_rate}, 2.0, robot);
-    EXPECT_NEAR(braking.heading().state(2.0).yaw_rate, yaw_rate, 1e-12);
+    EXPECT_NEAR(braking.heading_state(2.0).yaw_rate, yaw_rate, 1e-12);
     const double stop_time = std::abs(yaw_rate) / robot.max_yaw_acceleration;
-    EXPECT_NEAR(braking.heading().state(2.0 + stop_time + 1e-6).yaw_rate, 0.0, 1e-5);
+    EXPECT_NEAR(braking.heading_state(2.0 + stop_time + 1e-6).yaw_rate, 0.0, 1e-5);
   }
 }
 

@@ -214,8 +214,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
   return report;
 }
 
-LimitReport check_limits(const Trajectory& trajectory, const RobotParameters& robot,
-                         const OmniKinematics& kinematics) {
+LimitReport check_limits(const Trajectory& trajectory, const RobotParameters& robot, const Drive& drive) {
   constexpr int kSamplesPerPiece = 10;
   LimitReport report;
   double piece_start = trajectory.start_time();
@@ -224,9 +223,9 @@ LimitReport check_limits(const Trajectory& trajectory, const RobotParameters& ro
     for (int j = (i == 0 ? 0 : 1); j <= kSamplesPerPiece; ++j) {
       const double local_time = piece.duration * j / kSamplesPerPiece;
       const Eigen::Vector2d velocity = piece.velocity(local_time);
-      const HeadingState heading = trajectory.heading().state(piece_start + local_time);
-      const Eigen::Vector3d wheels =
-          kinematics.wheel_speeds_from_world({velocity.x(), velocity.y(), heading.yaw_rate}, heading.heading);
+      const HeadingState heading = trajectory.heading_state(piece_start + local_time);
+      const DriveInput wheels =
+          drive.input_from_world({velocity.x(), velocity.y(), heading.yaw_rate}, heading.heading);
       report.speed = std::max(report.speed, velocity.norm());
       report.acceleration = std::max(report.acceleration, piece.acceleration(local_time).norm());
       report.wheel_speed = std::max(report.wheel_speed, wheels.lpNorm<Eigen::Infinity>());
@@ -240,8 +239,7 @@ LimitReport check_limits(const Trajectory& trajectory, const RobotParameters& ro
 }
 
 HeadingProfile fitted_heading(const Trajectory& trajectory, const HeadingState& heading,
-                              double target_heading, const RobotParameters& robot,
-                              const OmniKinematics& kinematics) {
+                              double target_heading, const RobotParameters& robot, const Drive& drive) {
   constexpr int kTries = 6;
   constexpr double kSlowest = 0.02;  // [rad/s]
   double yaw_rate = robot.max_yaw_rate;
@@ -249,7 +247,7 @@ HeadingProfile fitted_heading(const Trajectory& trajectory, const HeadingState& 
   for (int i = 0; i < kTries && yaw_rate > kSlowest; ++i) {
     trial.set_heading(
         {trajectory.start_time(), heading, target_heading, yaw_rate, robot.max_yaw_acceleration});
-    if (check_limits(trial, robot, kinematics).wheel_speed <= 1.0) return trial.heading();
+    if (check_limits(trial, robot, drive).wheel_speed <= 1.0) return trial.heading();
     yaw_rate *= 0.5;
   }
   return stopping_heading(heading, trajectory.start_time(), robot);

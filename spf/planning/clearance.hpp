@@ -9,7 +9,7 @@
 #include "spf/field/probability_field.hpp"
 #include "spf/planning/moving_disc.hpp"
 #include "spf/planning/planner_parameters.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 #include "spf/robot/robot_parameters.hpp"
 #include "spf/world/world_snapshot.hpp"
 
@@ -112,12 +112,12 @@ struct LimitReport {
   double wheel_speed = 0.0;   ///< of max_wheel_speed, position and heading together
 };
 [[nodiscard]] LimitReport check_limits(const Trajectory& trajectory, const RobotParameters& robot,
-                                       const OmniKinematics& kinematics);
+                                       const Drive& drive);
 
 /// The fastest turn to `target_heading` that keeps the wheels within their limits along the trajectory's
 /// motion: the yaw rate is lowered until it fits, at worst until only the present turn is stopped.
 [[nodiscard]] HeadingProfile fitted_heading(const Trajectory& trajectory, const HeadingState& heading,
                                             double target_heading, const RobotParameters& robot,
-                                            const OmniKinematics& kinematics);
+                                            const Drive& drive);
 
 }  // namespace spf

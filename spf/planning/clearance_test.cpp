@@ -219,27 +219,27 @@ TEST(Clearance, TreatsObstaclesByTheDynamicModel) {
 
 TEST(Limits, SeeSpeedAccelerationAndWheels) {
   RobotParameters robot;
-  const OmniKinematics kinematics{robot};
+  const Drive drive{robot};
   Trajectory run = straight({0.0, 0.0}, {0.5, 0.0}, 0.0, 4.0);
-  LimitReport report = check_limits(run, robot, kinematics);
+  LimitReport report = check_limits(run, robot, drive);
   EXPECT_NEAR(report.speed, 0.5, 1e-12);
   EXPECT_NEAR(report.acceleration, 0.0, 1e-12);
   // Turning at 1.5 rad/s adds arm times rate to every wheel.
   run.set_heading({0.0, {0.0, 0.0}, 3.0, 1.5, 3.0});
-  report = check_limits(run, robot, kinematics);
+  report = check_limits(run, robot, drive);
   EXPECT_NEAR(report.wheel_speed, (0.5 + 0.2 * 1.5) / robot.max_wheel_speed, 0.02);
 }
 
 TEST(Limits, TheTurnIsSlowedUntilTheWheelsCanFollow) {
   RobotParameters robot;
   robot.max_wheel_speed = 1.05;
-  const OmniKinematics kinematics{robot};
+  const Drive drive{robot};
   Trajectory run = straight({0.0, 0.0}, {1.0, 0.0}, 0.0, 8.0);
   run.set_heading({0.0, {0.0, 0.0}, 3.0, robot.max_yaw_rate, robot.max_yaw_acceleration});
-  EXPECT_GT(check_limits(run, robot, kinematics).wheel_speed, 1.0);
-  run.set_heading(fitted_heading(run, {0.0, 0.0}, 3.0, robot, kinematics));
-  EXPECT_LE(check_limits(run, robot, kinematics).wheel_speed, 1.0);
-  EXPECT_GT(std::abs(run.heading().state(8.0).heading), 0.5);  // it still turns
+  EXPECT_GT(check_limits(run, robot, drive).wheel_speed, 1.0);
+  run.set_heading(fitted_heading(run, {0.0, 0.0}, 3.0, robot, drive));
+  EXPECT_LE(check_limits(run, robot, drive).wheel_speed, 1.0);
+  EXPECT_GT(std::abs(run.heading_state(8.0).heading), 0.5);  // it still turns
 }
 
 }  // namespace

@@ -6,77 +6,115 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/math/angles.hpp"
 
 namespace spf {
 namespace {
 
 constexpr double kLeastSpeed = 1e-9;  // [m/s] slower, a car stands
 
-void require_positive(const char* name, double value) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  throw std::invalid_argument(std::string{name} + " = " + std::to_string(value) + " must be positive");
+std::vector<double> around(int wheels, double first_angle) {
+  std::vector<double> angles;
+  angles.reserve(static_cast<std::size_t>(wheels));
+  for (int i = 0; i < wheels; ++i) angles.push_back(first_angle + 2.0 * kPi / wheels * i);
+  return angles;
 }
 
 }  // namespace
 
-Drive::Drive(const DriveDesign& design)
-    : type_{design.type}, wheel_base_{design.wheel_base}, min_turning_radius_{0.0} {
-  require_positive("max_wheel_speed", design.max_wheel_speed);
+Eigen::Matrix3d world_from_body(double heading) {
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  Eigen::Matrix3d rotation;
+  rotation << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
+  return rotation;
+}
+
+Eigen::Vector3d twist_in_body(const Eigen::Vector3d& twist_world, double heading) {
+  const double c = std::cos(heading);
+  const double s = std::sin(heading);
+  return {c * twist_world.x() + s * twist_world.y(), -s * twist_world.x() + c * twist_world.y(),
+          twist_world.z()};
+}
+
+Eigen::Vector3d twist_in_world(const Eigen::Vector3d& twist_body, double heading) {
+  return twist_in_body(twist_body, -heading);
+}
+
+Drive::Drive(const RobotParameters& robot)
+    : type_{validated(robot).drive}, wheel_base_{robot.wheel_base}, min_turning_radius_{0.0} {
   if (type_ == DriveType::car) {
-    require_positive("wheel_base", design.wheel_base);
-    require_positive("min_turning_radius", design.min_turning_radius);
-    min_turning_radius_ = design.min_turning_radius;
+    min_turning_radius_ = robot.min_turning_radius;
     const double largest_angle = std::atan(wheel_base_ / min_turning_radius_);
-    upper_ = Eigen::Vector2d{design.max_wheel_speed, largest_angle};
-    lower_ = Eigen::Vector2d{design.may_reverse ? -design.max_wheel_speed : 0.0, -largest_angle};
+    upper_ = Eigen::Vector2d{robot.max_wheel_speed, largest_angle};
+    lower_ = Eigen::Vector2d{robot.may_reverse ? -robot.max_wheel_speed : 0.0, -largest_angle};
     return;
   }
-  require_positive("wheel_arm", design.wheel_arm);
-  set_wheels(design);
-  upper_ = DriveInput::Constant(wheel_from_body_.rows(), design.max_wheel_speed);
+  set_wheels(robot);
+  upper_ = DriveInput::Constant(wheel_from_body_.rows(), robot.max_wheel_speed);
   lower_ = -upper_;
 }
 
-void Drive::set_wheels(const DriveDesign& design) {
-  const double arm = design.wheel_arm;
-  switch (type_) {
-    case DriveType::omni: {
-      const auto count = static_cast<int>(design.wheel_angles.size());
-      if (count < 3 || count > kMaxDriveInputs)
-        throw std::invalid_argument("a robot has 3 to " + std::to_string(kMaxDriveInputs) +
-                                    " omni wheels, not " + std::to_string(count));
-      wheel_from_body_.resize(count, 3);
-      for (int i = 0; i < count; ++i) {
-        const double angle = design.wheel_angles[static_cast<std::size_t>(i)];
-        wheel_from_body_.row(i) << std::sin(angle), -std::cos(angle), -arm;
-      }
-      break;
-    }
-    case DriveType::mecanum:  // front left, front right, rear left, rear right
-      wheel_from_body_.resize(4, 3);
-      wheel_from_body_ << 1, -1, -arm, 1, 1, arm, 1, 1, -arm, 1, -1, arm;
-      break;
-    case DriveType::differential:  // left, right
-      wheel_from_body_.resize(2, 3);
-      wheel_from_body_ << 1, 0, -arm, 1, 0, arm;
-      break;
-    case DriveType::car:
-      return;
-  }
-  // The pseudo-inverse on the motions that the drive can do.
-  Eigen::Matrix3d gram = wheel_from_body_.transpose() * wheel_from_body_;
-  if (type_ == DriveType::differential) gram(1, 1) = 1.0;
+Drive::Drive(const RobotParameters& robot, const std::vector<double>& wheel_angles)
+    : type_{DriveType::omni}, wheel_base_{validated(robot).wheel_base}, min_turning_radius_{0.0} {
+  const auto count = wheel_angles.size();
+  if (count < 3 || count > kMaxDriveInputs)
+    throw std::invalid_argument("a robot has 3 to " + std::to_string(kMaxDriveInputs) + " omni wheels, not " +
+                                std::to_string(count));
+  set_omni_wheels(wheel_angles, robot.wheel_arm);
+  const Eigen::Matrix3d gram = wheel_from_body_.transpose() * wheel_from_body_;
   Eigen::FullPivLU<Eigen::Matrix3d> solver{gram};
   solver.setThreshold(1e-6);
   if (!gram.allFinite() || !solver.isInvertible())
     throw std::invalid_argument("omni wheels at these angles cannot move the robot every way");
-  body_from_wheel_ = solver.solve(wheel_from_body_.transpose());
+  keep_inverse(solver.solve(wheel_from_body_.transpose()));
+  upper_ = DriveInput::Constant(wheel_from_body_.rows(), robot.max_wheel_speed);
+  lower_ = -upper_;
+}
+
+// The columns of these are orthogonal, so that the pseudo-inverse is exact: the transpose over their squares.
+void Drive::set_wheels(const RobotParameters& robot) {
+  const double arm = robot.wheel_arm;
+  Eigen::Vector3d squares{4.0, 4.0, 4.0 * arm * arm};
+  switch (type_) {
+    case DriveType::omni:
+      set_omni_wheels(around(robot.wheels, robot.first_wheel_angle), arm);
+      squares = {0.5 * robot.wheels, 0.5 * robot.wheels, robot.wheels * arm * arm};
+      break;
+    case DriveType::mecanum:
+      wheel_from_body_.resize(4, 3);
+      wheel_from_body_ << 1, -1, -arm, 1, 1, arm, 1, 1, -arm, 1, -1, arm;
+      break;
+    case DriveType::differential:
+      wheel_from_body_.resize(2, 3);
+      wheel_from_body_ << 1, 0, -arm, 1, 0, arm;
+      squares = {2.0, 1.0, 2.0 * arm * arm};  // of the second any: the column is zero
+      break;
+    case DriveType::car:
+      break;
+  }
+  keep_inverse(squares.cwiseInverse().asDiagonal() * wheel_from_body_.transpose());
+}
+
+/// W: row i = [sin(phi_i), -cos(phi_i), -arm].
+void Drive::set_omni_wheels(const std::vector<double>& angles, double arm) {
+  wheel_from_body_.resize(static_cast<Eigen::Index>(angles.size()), 3);
+  Eigen::Index row = 0;
+  for (const double angle : angles) wheel_from_body_.row(row++) << std::sin(angle), -std::cos(angle), -arm;
+}
+
+void Drive::keep_inverse(const DriveJacobian& body_from_wheel) {
+  body_from_wheel_ = body_from_wheel;
+  if (wheel_from_body_.rows() != 3) return;
+  three_from_body_ = wheel_from_body_;
+  body_from_three_ = body_from_wheel_;
 }
 
 Eigen::Vector3d Drive::twist_body(const DriveInput& input) const {
   if (type_ == DriveType::car) return {input[0], 0.0, input[0] * std::tan(input[1]) / wheel_base_};
+  if (input.size() == 3) return body_from_three_ * input.head<3>();
   return body_from_wheel_ * input;
 }
 
@@ -94,6 +132,7 @@ DriveJacobian Drive::jacobian(const DriveInput& input) const {
 }
 
 DriveInput Drive::input_for(const Eigen::Vector3d& twist_body, double steering_angle) const {
+  if (inputs() == 3) return three_from_body_ * twist_body;
   if (type_ != DriveType::car) return wheel_from_body_ * twist_body;
   const double speed = twist_body.x();
   if (std::abs(speed) > kLeastSpeed) steering_angle = std::atan(wheel_base_ * twist_body.z() / speed);

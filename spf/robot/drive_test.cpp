@@ -5,34 +5,25 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
-#include "spf/robot/omni_kinematics.hpp"
 
 namespace spf {
 namespace {
 
-DriveDesign design_of(DriveType type) {
-  DriveDesign design;
-  design.type = type;
-  return design;
+RobotParameters robot_with(DriveType type, int wheels = 3) {
+  RobotParameters robot;
+  robot.drive = type;
+  robot.wheels = wheels;
+  robot.first_wheel_angle = 0.3;
+  return robot;
 }
 
-DriveDesign omni_with(int wheels) {
-  DriveDesign design;
-  design.wheel_angles.clear();
-  for (int i = 0; i < wheels; ++i) design.wheel_angles.push_back(0.3 + 2.0 * kPi * i / wheels);
-  return design;
-}
-
-std::vector<DriveDesign> all_designs() {
-  return {omni_with(3),
-          omni_with(4),
-          omni_with(8),
-          design_of(DriveType::mecanum),
-          design_of(DriveType::differential),
-          design_of(DriveType::car)};
+std::vector<RobotParameters> robots_of_all_drives() {
+  return {robot_with(DriveType::omni),    robot_with(DriveType::omni, 4),      robot_with(DriveType::omni, 6),
+          robot_with(DriveType::mecanum), robot_with(DriveType::differential), robot_with(DriveType::car)};
 }
 
 Eigen::Vector3d random_twist(RandomStream& random) {
@@ -41,8 +32,8 @@ Eigen::Vector3d random_twist(RandomStream& random) {
 
 TEST(Drive, GivesBackEveryMotionThatItCanDo) {
   RandomStream random{5};
-  for (const DriveDesign& design : all_designs()) {
-    const Drive drive{design};
+  for (const RobotParameters& robot : robots_of_all_drives()) {
+    const Drive drive{robot};
     for (int i = 0; i < 100; ++i) {
       const Eigen::Vector3d twist = drive.possible(random_twist(random));
       EXPECT_LT((drive.twist_body(drive.input_for(twist)) - twist).norm(), 1e-12) << enum_name(drive.type());
@@ -50,24 +41,26 @@ TEST(Drive, GivesBackEveryMotionThatItCanDo) {
   }
 }
 
-TEST(Drive, OfThreeOmniWheelsIsThePapers) {
-  const RobotParameters robot;
-  const OmniKinematics paper{robot};
-  const Drive drive{DriveDesign{}};
+TEST(Drive, OfOmniWheelsAtTheSameAnglesIsTheSame) {
+  const RobotParameters robot = robot_with(DriveType::omni, 4);
+  const Drive even{robot};
+  const Drive by_angles{robot, {0.3, 0.3 + 0.5 * kPi, 0.3 + kPi, 0.3 + 1.5 * kPi}};
   RandomStream random{6};
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d twist = random_twist(random);
-    EXPECT_LT((drive.input_for(twist) - paper.wheel_speeds(twist.head<2>(), twist.z())).norm(), 1e-14);
-    const DriveInput rims = drive.input_for(twist);
-    EXPECT_LT((drive.twist_world(rims, 0.7) - paper.twist_world(rims, 0.7)).norm(), 1e-14);
-    EXPECT_LT((drive.saturated(3.0 * rims) - paper.saturated(3.0 * rims)).norm(), 1e-14);
+    const DriveInput rims = even.input_for(twist);
+    EXPECT_LT((rims - by_angles.input_for(twist)).norm(), 1e-14);
+    EXPECT_LT((even.twist_body(rims) - by_angles.twist_body(rims)).norm(), 1e-13);
   }
+  const Drive uneven{robot, {0.0, 1.0, 2.5}};
+  EXPECT_LT((uneven.twist_body(uneven.input_for({0.3, -0.2, 0.4})) - Eigen::Vector3d(0.3, -0.2, 0.4)).norm(),
+            1e-13);
 }
 
 TEST(Drive, JacobianIsThatOfTheTwist) {
   RandomStream random{7};
-  for (const DriveDesign& design : all_designs()) {
-    const Drive drive{design};
+  for (const RobotParameters& robot : robots_of_all_drives()) {
+    const Drive drive{robot};
     const DriveInput at = drive.input_for(drive.possible({0.5, 0.2, 0.3}));
     const DriveJacobian jacobian = drive.jacobian(at);
     for (int i = 0; i < drive.inputs(); ++i) {
@@ -81,32 +74,32 @@ TEST(Drive, JacobianIsThatOfTheTwist) {
 }
 
 TEST(Drive, LeavesOutWhatItCannotDo) {
-  const Drive differential{design_of(DriveType::differential)};
+  const Drive differential{robot_with(DriveType::differential)};
   EXPECT_EQ(differential.possible({0.5, 0.4, 0.3}), Eigen::Vector3d(0.5, 0.0, 0.3));
   EXPECT_LT((differential.twist_body(differential.input_for({0.5, 0.4, 0.3})) - Eigen::Vector3d(0.5, 0, 0.3))
                 .norm(),
             1e-14);
-  const Drive car{design_of(DriveType::car)};
+  const Drive car{robot_with(DriveType::car)};
   EXPECT_EQ(car.possible({0.0, 0.0, 1.0}), Eigen::Vector3d::Zero());
   EXPECT_NEAR(car.possible({-0.3, 0.0, 1.0}).z(), 0.5, 1e-12);
   EXPECT_EQ(car.input_for({0.0, 0.0, 0.0}, 0.2)[1], 0.2);
-  DriveDesign forward = design_of(DriveType::car);
+  RobotParameters forward = robot_with(DriveType::car);
   forward.may_reverse = false;
   EXPECT_EQ(Drive{forward}.possible({-0.3, 0.0, 0.1}), Eigen::Vector3d::Zero());
   EXPECT_EQ(Drive{forward}.saturated(Eigen::Vector2d(-0.3, 0.1))[0], 0.0);
 }
 
 TEST(Drive, TurnsLeftWithTheRightWheelFaster) {
-  const DriveInput turn = Drive{design_of(DriveType::differential)}.input_for({0.0, 0.0, 1.0});
+  const DriveInput turn = Drive{robot_with(DriveType::differential)}.input_for({0.0, 0.0, 1.0});
   EXPECT_LT(turn[0], 0.0);
   EXPECT_GT(turn[1], 0.0);
-  const Eigen::Vector3d arc = Drive{design_of(DriveType::car)}.twist_body(Eigen::Vector2d(0.5, 0.3));
+  const Eigen::Vector3d arc = Drive{robot_with(DriveType::car)}.twist_body(Eigen::Vector2d(0.5, 0.3));
   EXPECT_GT(arc.z(), 0.0);
 }
 
 TEST(Drive, SlowsDownOnItsPathAtTheLimits) {
-  for (const DriveDesign& design : all_designs()) {
-    const Drive drive{design};
+  for (const RobotParameters& robot : robots_of_all_drives()) {
+    const Drive drive{robot};
     const Eigen::Vector3d twist = drive.possible({4.0, 1.0, 2.0});
     const DriveInput fast = drive.input_for(twist);
     const DriveInput kept = drive.saturated(fast);
@@ -124,17 +117,15 @@ TEST(Drive, SlowsDownOnItsPathAtTheLimits) {
 }
 
 TEST(Drive, RefusesWhatCannotMove) {
-  EXPECT_THROW(Drive{omni_with(2)}, std::invalid_argument);
-  EXPECT_THROW(Drive{omni_with(9)}, std::invalid_argument);
-  DriveDesign line;
-  line.wheel_angles = {0.0, kPi, 0.0};
-  EXPECT_THROW(Drive{line}, std::invalid_argument);
-  DriveDesign flat = design_of(DriveType::car);
+  const RobotParameters robot;
+  EXPECT_THROW((Drive{robot, {0.0, 2.0}}), std::invalid_argument);
+  EXPECT_THROW((Drive{robot, std::vector<double>(7, 1.0)}), std::invalid_argument);
+  EXPECT_THROW((Drive{robot, {0.0, kPi, 0.0}}), std::invalid_argument);
+  EXPECT_THROW((Drive{robot, {0.0, 1.0, std::nan("")}}), std::invalid_argument);
+  RobotParameters flat = robot_with(DriveType::car);
   flat.wheel_base = 0.0;
   EXPECT_THROW(Drive{flat}, std::invalid_argument);
-  DriveDesign stuck = design_of(DriveType::mecanum);
-  stuck.max_wheel_speed = std::nan("");
-  EXPECT_THROW(Drive{stuck}, std::invalid_argument);
+  EXPECT_THROW(Drive{robot_with(DriveType::omni, 2)}, std::invalid_argument);
 }
 
 }  // namespace

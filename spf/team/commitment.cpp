@@ -5,6 +5,7 @@
 
 #include "spf/planning/braking.hpp"
 #include "spf/planning/clearance.hpp"
+#include "spf/planning/steering.hpp"
 
 namespace spf {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kStandingShare = 0.1;  // [1] of the distance at which a plan s
 Commitment::Commitment(const AgentParameters& parameters, const Pose2& start, double time)
     : heading_mode_{parameters.heading_mode},
       robot_{parameters.robot},
-      kinematics_{parameters.robot},
+      drive_{parameters.robot},
       reanchor_distance_{parameters.team.reanchor_distance},
       held_heading_{start.heading},
       trajectory_{Trajectory::standing(start.position_world, time, 1.0, HeadingProfile{start.heading})} {}
@@ -29,7 +30,7 @@ void Commitment::reconfigure(const AgentParameters& parameters) {
 void Commitment::begin_plan(const StateEstimate& estimate, PlanRequest& request,
                             const std::optional<Hold>& hold) {
   request.head = trajectory_.state(request.time);
-  request.heading = trajectory_.heading().state(request.time);
+  request.heading = trajectory_.heading_state(request.time);
   request.committed = &trajectory_;
   request.braking = braking_;
   if (!estimate.valid) return;
@@ -57,6 +58,11 @@ void Commitment::follow(const PlanRequest& request, const PlanResult& result) {
   }
   braking_ = result.action == PlanAction::brake;
   trajectory_ = result.trajectory;
+  if (!drive_.holonomic()) {
+    if (!trajectory_.steered())
+      trajectory_ = steered_along(trajectory_, request.head, request.heading, robot_);
+    return;
+  }
   if (ends_soon(request)) held_heading_ = *request.goal_heading;
   trajectory_.set_heading(heading_for(request));
 }
@@ -71,7 +77,7 @@ bool Commitment::ends_soon(const PlanRequest& request) const {
 bool Commitment::brake(double time) {
   if (braking_) return false;  // the braking trajectory under way ends standing
   const FlatState head = trajectory_.state(time);
-  trajectory_ = braking_trajectory(head, trajectory_.heading().state(time), time, robot_);
+  trajectory_ = braking_trajectory(head, trajectory_.heading_state(time), time, robot_);
   braking_ = true;
   return true;
 }
@@ -108,7 +114,7 @@ HeadingProfile Commitment::heading_for(const PlanRequest& request) const {
   const bool held =
       std::abs(angle_difference(target, request.heading.heading)) < 1e-9 && request.heading.yaw_rate == 0.0;
   if (held) return HeadingProfile{target};
-  return fitted_heading(trajectory_, request.heading, target, robot_, kinematics_);
+  return fitted_heading(trajectory_, request.heading, target, robot_, drive_);
 }
 
 }  // namespace spf

@@ -6,7 +6,7 @@
 
 #include "spf/localisation/observer.hpp"
 #include "spf/planning/planner.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 #include "spf/team/agent_parameters.hpp"
 #include "spf/team/agent_status.hpp"
 
@@ -47,7 +47,7 @@ class Commitment {
 
   HeadingMode heading_mode_;
   RobotParameters robot_;
-  OmniKinematics kinematics_;
+  Drive drive_;
   double reanchor_distance_;  // [m]
   double held_heading_;       // [rad] in mode `keep`
   Trajectory trajectory_;

@@ -149,8 +149,8 @@ TEST(CommitmentHeading, FollowsItsMode) {
     commitment.begin_plan(StateEstimate{}, request);
     commitment.follow(request, follow(straight({0.0, 0.0}, {0.3, 0.3}, 1.0, 20.0)));
     const double wanted = mode == HeadingMode::keep ? 0.3 : (mode == HeadingMode::goal ? -1.0 : 0.25 * kPi);
-    EXPECT_NEAR(commitment.trajectory().heading().state(20.0).heading, wanted, 1e-9);
-    EXPECT_NEAR(commitment.trajectory().heading().state(1.0).heading, 0.3, 1e-9);  // without a jump
+    EXPECT_NEAR(commitment.trajectory().heading_state(20.0).heading, wanted, 1e-9);
+    EXPECT_NEAR(commitment.trajectory().heading_state(1.0).heading, 0.3, 1e-9);  // without a jump
   }
 }
 
@@ -211,7 +211,7 @@ TEST(CommitmentHeading, KeepsStillWhileItsMotionSaysNothing) {
   PlanRequest request = request_at(1.0);
   commitment.begin_plan(StateEstimate{}, request);
   commitment.follow(request, follow(straight({0.0, 0.0}, {0.0, -0.05}, 1.0, 20.0)));
-  EXPECT_NEAR(commitment.trajectory().heading().state(20.0).heading, 0.3, 1e-9);
+  EXPECT_NEAR(commitment.trajectory().heading_state(20.0).heading, 0.3, 1e-9);
 }
 
 TEST_F(CommitmentTest, ARobotThatIsHeldStandsWhereItIsAndNotWhereItsBrakingLeads) {
@@ -225,7 +225,7 @@ TEST_F(CommitmentTest, ARobotThatIsHeldStandsWhereItIsAndNotWhereItsBrakingLeads
   EXPECT_TRUE(commitment.braking());
   EXPECT_EQ(commitment.trajectory().position(2.1), (Eigen::Vector2d{0.5, 0.0}));
   EXPECT_EQ(commitment.trajectory().position(9.0), (Eigen::Vector2d{0.5, 0.0}));
-  EXPECT_NEAR(commitment.trajectory().heading().state(9.0).heading, 0.4, 1e-12);
+  EXPECT_NEAR(commitment.trajectory().heading_state(9.0).heading, 0.4, 1e-12);
   EXPECT_FALSE(commitment.stand_where(estimate_at({0.5, 0.0}), 2.2));
 }
 

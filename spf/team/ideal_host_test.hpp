@@ -138,7 +138,7 @@ class IdealHost {
     AgentInput input;
     const double now = time();
     input.state.valid = true;
-    input.state.pose_world = {position, agent.committed().heading().state(now).heading};
+    input.state.pose_world = {position, agent.committed().heading_state(now).heading};
     if (ticks_ % 10 == 0) {
       input.observation.emplace();
       input.observation->time = now;
@@ -199,7 +199,7 @@ class IdealHost {
     RangeScan scan;
     scan.angle_min = -kPi;
     scan.angle_increment = 2.0 * kPi / kBeams;
-    const double heading = agent.committed().heading().state(time()).heading;
+    const double heading = agent.committed().heading_state(time()).heading;
     for (int i = 0; i < kBeams; ++i) {
       const double angle = heading + scan.angle_min + i * scan.angle_increment;
       double range = std::numeric_limits<double>::infinity();

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "spf/planning/contact_risk.hpp"
-#include "spf/robot/omni_dynamics.hpp"
+#include "spf/robot/drive_dynamics.hpp"
 #include "spf/team/announcement.hpp"
 #include "spf/team/beliefs.hpp"
 #include "spf/team/commitment.hpp"

@@ -147,7 +147,7 @@ TEST_P(RobotAgentTest, KeepsWhatItKnowsWhenItsParametersChange) {
   double turned = 0.0;
   while (host.time() < 30.0 && host.agent.status().reason != StopCause::arrived) {
     host.tick();
-    turned = std::max(turned, std::abs(host.agent.committed().heading().state(host.time()).heading));
+    turned = std::max(turned, std::abs(host.agent.committed().heading_state(host.time()).heading));
   }
   EXPECT_GT(turned, 0.2);  // it faces the way round the box now
   EXPECT_EQ(host.agent.status().reason, StopCause::arrived);
@@ -173,12 +173,38 @@ TEST_P(RobotAgentTest, TurnsToTheHeadingOfItsGoalWhateverItsMode) {
     host.agent.set_goal({0.0, 2.0}, -2.0);
     EXPECT_TRUE(host.arrives_within(12.0));
     host.run(4.0);
-    EXPECT_NEAR(host.agent.committed().heading().state(host.time()).heading, -2.0, 0.01);
+    EXPECT_NEAR(host.agent.committed().heading_state(host.time()).heading, -2.0, 0.01);
     host.agent.set_goal({0.0, 2.0}, 1.0);  // on the spot
     host.run(4.0);
-    EXPECT_NEAR(host.agent.committed().heading().state(host.time()).heading, 1.0, 0.01);
+    EXPECT_NEAR(host.agent.committed().heading_state(host.time()).heading, 1.0, 0.01);
     EXPECT_EQ(host.agent.status().reason, StopCause::arrived);
   }
+}
+
+TEST(SteeredRobot, DrivesAheadToItsGoalAndTurnsThereToTheHeadingAskedFor) {
+  AgentParameters differential;
+  differential.robot.drive = DriveType::differential;
+  IdealHost host{differential, empty_map(), {-4.0, 0.0}};
+  host.agent.set_goal({0.0, 2.0}, -2.0);
+  double sideways = 0.0;
+  double turned = 0.0;
+  host.more_input = [&](double now, AgentInput&) {
+    const FlatState flat = host.agent.committed().state(now);
+    const HeadingState heading = host.agent.committed().heading_state(now);
+    sideways = std::max(
+        sideways,
+        std::abs(
+            twist_in_body({flat.velocity_world.x(), flat.velocity_world.y(), 0.0}, heading.heading).y()));
+    turned = std::max(turned, std::abs(heading.yaw_rate));
+  };
+  EXPECT_TRUE(host.arrives_within(12.0));
+  host.run(4.0);
+  EXPECT_NEAR(host.agent.committed().heading_state(host.time()).heading, -2.0, 0.01);
+  EXPECT_LT((host.position - Eigen::Vector2d{0.0, 2.0}).norm(), 0.05);
+  EXPECT_LT(sideways, 0.02);  // of a cubic that stands for an arc
+  EXPECT_GT(turned, 0.5);
+  EXPECT_LT(host.largest_jump, 1e-3);
+  EXPECT_EQ(host.agent.status().reason, StopCause::arrived);
 }
 
 TEST_P(RobotAgentTest, SaysThatThereIsNoPathToAWalledInGoal) {

@@ -117,6 +117,16 @@ void BoxLqSolver<N>::hold_inputs_at_bounds(const BoxLqProblem<N>& problem, const
     }
 }
 
+// Of every input and every component of a state one bound at most is active.
+template <int N>
+BoxLqSolver<N>::BoxLqSolver(int most_steps)
+    : responses_(as_index(std::min(kMaxActive, (N + 3) * most_steps) + 1)) {
+  for (Response& response : responses_) {
+    response.inputs.resize(as_index(most_steps));
+    response.states.resize(as_index(most_steps + 1));
+  }
+}
+
 // Newton step of the free inputs as a feedback law. The value function of the steps from the current iterate
 // is a quadratic in the state's step and, with a rate weight, the previous input's step.
 template <int N>
@@ -159,11 +169,8 @@ void BoxLqSolver<N>::riccati_sweep(const BoxLqProblem<N>& problem, const InputSe
         take_out<N>(i, curvature, gradient, by_state, by_previous);
     SmallCholesky<N>& factor = factors_[as_index(k)] = SmallCholesky<N>{curvature};
     feedback.step = -factor.solve(gradient);
-    if (k > 0 || kRate) {
-      feedback.by_state = -factor.solve_columns(by_state);
-    } else {
-      feedback.by_state.setZero();
-    }
+    feedback.by_state.setZero();
+    if (k > 0 || kRate) feedback.by_state = -factor.solve_columns(by_state);
     if constexpr (kRate) feedback.by_previous_input = -factor.solve_columns(by_previous);
     if (k == 0) return;
 
@@ -286,6 +293,8 @@ bool BoxLqSolver<N>::refine(const BoxLqProblem<N>& problem, InputSequence<N>& in
 SPF_BOX_LQ(2)
 SPF_BOX_LQ(3)
 SPF_BOX_LQ(4)
+SPF_BOX_LQ(5)
+SPF_BOX_LQ(6)
 #undef SPF_BOX_LQ
 
 }  // namespace spf

@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "spf/math/index.hpp"
 #include "spf/tracking/reference_sampler.hpp"
@@ -70,10 +71,13 @@ struct BoxLqOutcome {
   int active_set_steps = 0;  ///< bounds activated or dropped
 };
 
-/// Fixed memory; construct once, solve often. Made for N = 2, 3 and 4.
+/// Construct once, solve often: all memory is taken at once. Made for N = 2 to 6.
 template <int N>
 class BoxLqSolver {
  public:
+  /// For problems of at most so many steps, 1..kMaxHorizon.
+  explicit BoxLqSolver(int most_steps = kMaxHorizon);
+
   using Input = Eigen::Matrix<double, N, 1>;
   using Inputs = InputSequence<N>;
   using Problem = BoxLqProblem<N>;
@@ -113,8 +117,8 @@ class BoxLqSolver {
   };
   /// Change of inputs and states by a unit multiplier of a bound.
   struct Response {
-    Inputs inputs;
-    StateSequence states;
+    std::vector<Input> inputs;
+    std::vector<Eigen::Vector3d> states;
   };
   static constexpr int kMaxActive = 40;
   using ActiveVector = std::array<double, kMaxActive>;
@@ -172,7 +176,7 @@ class BoxLqSolver {
   std::array<Bound, kMaxActive> active_;
   ActiveVector multipliers_;
   // Responses are kept where they were computed; order_ says which belongs to which active bound.
-  std::array<Response, kMaxActive + 1> responses_;
+  std::vector<Response> responses_;
   std::array<int, kMaxActive + 1> order_;
   LowerTriangle schur_;         // by active position
   LowerTriangle schur_factor_;  // its Cholesky factor

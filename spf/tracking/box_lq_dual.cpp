@@ -218,7 +218,7 @@ template <int N>
 bool BoxLqSolver<N>::start_from_last_active_set(const BoxLqProblem<N>& problem, InputSequence<N>& inputs) {
   const int remembered = active_count_;
   active_count_ = 0;
-  for (int i = 0; i <= kMaxActive; ++i) order_[as_index(i)] = i;
+  for (std::size_t i = 0; i < responses_.size(); ++i) order_[i] = static_cast<int>(i);
   for (int i = 0; i < remembered; ++i) {
     const Bound bound = active_[as_index(i)];
     if (bound.stage >= problem.steps || (!bound.on_input && !(problem.slack_weight > 0.0))) continue;
@@ -246,7 +246,7 @@ bool BoxLqSolver<N>::start_from_last_active_set(const BoxLqProblem<N>& problem, 
 template <int N>
 bool BoxLqSolver<N>::take_up(const BoxLqProblem<N>& problem, InputSequence<N>& inputs, const Bound& bound,
                              double violation, int max_steps, int& steps) {
-  if (active_count_ == kMaxActive) return false;
+  if (as_index(active_count_ + 1) == responses_.size()) return false;
   respond(problem, bound, responses_[as_index(order_[as_index(active_count_)])]);
   const auto along = [&bound](const Response& response) {
     return bound.sign * (bound.on_input ? response.inputs[as_index(bound.stage)][bound.component]
@@ -294,5 +294,7 @@ bool BoxLqSolver<N>::take_up(const BoxLqProblem<N>& problem, InputSequence<N>& i
 template class BoxLqSolver<2>;
 template class BoxLqSolver<3>;
 template class BoxLqSolver<4>;
+template class BoxLqSolver<5>;
+template class BoxLqSolver<6>;
 
 }  // namespace spf

@@ -14,14 +14,10 @@ double factor_within(double size, double limit) {
   return size > limit ? limit / size : 1.0;
 }
 
-Eigen::Vector3d rim_speeds(const OmniKinematics& kinematics, const Eigen::Vector3d& twist_body) {
-  return kinematics.wheel_speeds(twist_body.head<2>(), twist_body.z());
-}
-
 }  // namespace
 
-CommandLimiter::CommandLimiter(const RobotParameters& robot, const OmniKinematics& kinematics, double period)
-    : kinematics_{kinematics},
+CommandLimiter::CommandLimiter(const RobotParameters& robot, const Drive& drive, double period)
+    : drive_{drive},
       largest_speed_{kSpeedSpare * validated(robot).max_speed},
       max_speed_{largest_speed_},
       max_acceleration_{kAccelerationSpare * robot.max_acceleration},
@@ -33,21 +29,22 @@ void CommandLimiter::set_max_speed(double max_speed) {
   if (max_speed > 0.0) max_speed_ = std::min(kSpeedSpare * max_speed, largest_speed_);
 }
 
-Eigen::Vector3d CommandLimiter::limited(const Eigen::Vector3d& wanted, const Eigen::Vector3d& previous,
-                                        double elapsed) const {
-  if (!previous.allFinite() || !std::isfinite(elapsed)) return Eigen::Vector3d::Zero();
+DriveInput CommandLimiter::limited(const DriveInput& wanted, const DriveInput& previous,
+                                   double elapsed) const {
+  if (previous.size() != drive_.inputs() || !previous.allFinite() || !std::isfinite(elapsed))
+    return drive_.standstill();
   const double duration = std::clamp(elapsed, 0.0, period_);
 
   // 1. The motion before: as it was seen from the body then, and from the body that has turned on since.
-  const Eigen::Vector3d then = kinematics_.twist_body(previous);
+  const Eigen::Vector3d then = drive_.twist_body(previous);
   const Eigen::Vector3d turned = twist_in_body(then, duration * then.z());
   const double apart_by = (turned - then).norm();
   const bool turns = apart_by > kLittleTurn * max_acceleration_ * duration;
 
   // 2. A possible motion.
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
-  if (wanted.allFinite()) {
-    target = kinematics_.twist_body(wanted);
+  if (wanted.size() == drive_.inputs() && wanted.allFinite()) {
+    target = drive_.twist_body(wanted);
     if (keeps_limits(wanted, target, turned, duration) &&
         (turns || keeps_limits(wanted, target, then, duration)))
       return wanted;
@@ -65,13 +62,13 @@ Eigen::Vector3d CommandLimiter::limited(const Eigen::Vector3d& wanted, const Eig
   const Eigen::Vector3d apart =
       before + Eigen::Vector3d{driving * change.x(), driving * change.y(), turning * change.z()};
   const Eigen::Vector3d twist = together + share_within_wheels(together, apart) * (apart - together);
-  return kinematics_.saturated(rim_speeds(kinematics_, twist));
+  return drive_.saturated(drive_.input_for(twist));
 }
 
-bool CommandLimiter::keeps_limits(const Eigen::Vector3d& wheel_speeds, const Eigen::Vector3d& twist_body,
+bool CommandLimiter::keeps_limits(const DriveInput& wheel_speeds, const Eigen::Vector3d& twist_body,
                                   const Eigen::Vector3d& before_body, double duration) const {
   const Eigen::Vector3d change = twist_body - before_body;
-  const double largest_rim_speed = (1.0 + kWheelRounding) * kinematics_.max_wheel_speed();
+  const double largest_rim_speed = (1.0 + kWheelRounding) * drive_.max_wheel_speed();
   return twist_body.head<2>().norm() <= max_speed_ && std::abs(twist_body.z()) <= max_yaw_rate_ &&
          change.head<2>().norm() <= max_acceleration_ * duration &&
          std::abs(change.z()) <= max_yaw_acceleration_ * duration &&
@@ -85,7 +82,7 @@ Eigen::Vector3d CommandLimiter::possible(const Eigen::Vector3d& twist_body) cons
   twist.head<2>() *= factor_within(twist.head<2>().norm(), max_speed_);
   twist.z() = std::clamp(twist.z(), -max_yaw_rate_, max_yaw_rate_);
   Eigen::Vector3d straight{twist.x(), twist.y(), 0.0};
-  straight *= std::min(1.0, kinematics_.scale_to_limit(rim_speeds(kinematics_, straight)));
+  straight *= std::min(1.0, drive_.scale_to_limit(drive_.input_for(straight)));
   const Eigen::Vector3d turning{straight.x(), straight.y(), twist.z()};
   return straight + share_within_wheels(straight, turning) * (turning - straight);
 }
@@ -93,11 +90,11 @@ Eigen::Vector3d CommandLimiter::possible(const Eigen::Vector3d& twist_body) cons
 /// How far the line from one motion to another is within the limits of the wheels [1]; its start must be.
 double CommandLimiter::share_within_wheels(const Eigen::Vector3d& from_body,
                                            const Eigen::Vector3d& to_body) const {
-  const Eigen::Vector3d from = rim_speeds(kinematics_, from_body);
-  const Eigen::Vector3d to = rim_speeds(kinematics_, to_body);
+  const DriveInput from = drive_.input_for(from_body);
+  const DriveInput to = drive_.input_for(to_body);
   double share = 1.0;
-  for (int wheel = 0; wheel < 3; ++wheel) {
-    const double limit = std::copysign(kinematics_.max_wheel_speed(), to[wheel]);
+  for (int wheel = 0; wheel < drive_.inputs(); ++wheel) {
+    const double limit = std::copysign(drive_.max_wheel_speed(), to[wheel]);
     if (std::abs(to[wheel]) <= std::abs(limit)) continue;
     const double change = to[wheel] - from[wheel];
     share = std::min(share, std::clamp((limit - from[wheel]) / change, 0.0, 1.0));

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 #include "spf/robot/robot_parameters.hpp"
 
 namespace spf {
@@ -14,7 +14,7 @@ namespace spf {
 class CommandLimiter {
  public:
   /// Throws std::invalid_argument on parameters out of range. `period` [s]: the time between two commands.
-  CommandLimiter(const RobotParameters& robot, const OmniKinematics& kinematics, double period);
+  CommandLimiter(const RobotParameters& robot, const Drive& drive, double period);
 
   /// Rim speeds [m/s] nearest to the wanted ones that the limits allow after `previous` ones, which have been
   /// in force for `elapsed` [s]; wanted ones within the limits come back as they are. Acceleration is the
@@ -24,8 +24,8 @@ class CommandLimiter {
   /// a late tick is no harder than others. Previous ones beyond the limits are led back at the largest
   /// acceleration. Wanted ones that are not finite count as a wish to stand; after previous ones that are not
   /// finite the robot stands.
-  [[nodiscard]] Eigen::Vector3d limited(const Eigen::Vector3d& wanted, const Eigen::Vector3d& previous,
-                                        double elapsed) const;
+  [[nodiscard]] DriveInput limited(const DriveInput& wanted, const DriveInput& previous,
+                                   double elapsed) const;
 
   /// [m/s] A limit of speed from now on, no higher than the robot's; what is not positive is ignored.
   /// Commands beyond it are led back at the largest acceleration.
@@ -40,13 +40,13 @@ class CommandLimiter {
   static constexpr double kSpeedSpare = 1.008;
 
  private:
-  [[nodiscard]] bool keeps_limits(const Eigen::Vector3d& wheel_speeds, const Eigen::Vector3d& twist_body,
+  [[nodiscard]] bool keeps_limits(const DriveInput& wheel_speeds, const Eigen::Vector3d& twist_body,
                                   const Eigen::Vector3d& before_body, double duration) const;
   [[nodiscard]] Eigen::Vector3d possible(const Eigen::Vector3d& twist_body) const;
   [[nodiscard]] double share_within_wheels(const Eigen::Vector3d& from_body,
                                            const Eigen::Vector3d& to_body) const;
 
-  OmniKinematics kinematics_;
+  Drive drive_;
   double largest_speed_;         // [m/s] the robot's own
   double max_speed_;             // [m/s] now
   double max_acceleration_;      // [m/s^2]

@@ -15,15 +15,15 @@ constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 struct LimiterTest : testing::Test {
   RobotParameters robot;
-  OmniKinematics kinematics{robot};
-  CommandLimiter limiter{robot, kinematics, kLimiterPeriod};
+  Drive drive{robot};
+  CommandLimiter limiter{robot, drive, kLimiterPeriod};
 
   void renew() {
-    kinematics = OmniKinematics{robot};
-    limiter = CommandLimiter{robot, kinematics, kLimiterPeriod};
+    drive = Drive{robot};
+    limiter = CommandLimiter{robot, drive, kLimiterPeriod};
   }
   [[nodiscard]] Eigen::Vector3d wheels(double x, double y, double yaw_rate) const {
-    return kinematics.wheel_speeds({x, y}, yaw_rate);
+    return drive.input_for({x, y, yaw_rate});
   }
 };
 
@@ -50,9 +50,9 @@ TEST_F(LimiterTest, NoCommandExceedsALimitWhateverIsWanted) {
         const double elapsed = i % 13 == 0 ? random.uniform(0.0, 3.0) : kLimiterPeriod;
         const double counted = std::min(elapsed, kLimiterPeriod);
         const Eigen::Vector3d next = limiter.limited(wanted, command, elapsed);
-        const Eigen::Vector3d before = kinematics.twist_world(command, heading);
+        const Eigen::Vector3d before = drive.twist_world(command, heading);
         heading += counted * before.z();
-        const Eigen::Vector3d twist = kinematics.twist_world(next, heading);
+        const Eigen::Vector3d twist = drive.twist_world(next, heading);
         const Eigen::Vector3d change = twist - before;
         ASSERT_LE(next.lpNorm<Eigen::Infinity>(), robot.max_wheel_speed * (1.0 + 1e-9));
         ASSERT_LE(twist.head<2>().norm(), 1.01 * robot.max_speed);
@@ -69,10 +69,10 @@ TEST_F(LimiterTest, LetsARobotTurnThatDrivesStraightOn) {
   robot.max_wheel_speed = 3.0;
   renew();
   double heading = 0.3;
-  Eigen::Vector3d command = kinematics.wheel_speeds_from_world({1.0, 0.0, 1.5}, heading);
+  Eigen::Vector3d command = drive.input_from_world({1.0, 0.0, 1.5}, heading);
   for (int i = 0; i < 40; ++i) {
     heading += kLimiterPeriod * 1.5;
-    const Eigen::Vector3d wanted = kinematics.wheel_speeds_from_world({1.0, 0.0, 1.5}, heading);
+    const Eigen::Vector3d wanted = drive.input_from_world({1.0, 0.0, 1.5}, heading);
     ASSERT_EQ(limiter.limited(wanted, command, kLimiterPeriod), wanted);
     command = wanted;
   }
@@ -89,9 +89,9 @@ TEST_F(LimiterTest, GetsFromAnyMotionToAnyOther) {
       const double course = random.uniform(-3.0, 3.0);
       const double yaw_rate = random.uniform(-1.4, 1.4);
       const Eigen::Vector3d wanted =
-          kinematics.saturated(wheels(0.9 * std::cos(course), 0.9 * std::sin(course), yaw_rate));
+          drive.saturated(wheels(0.9 * std::cos(course), 0.9 * std::sin(course), yaw_rate));
       // Turning on at the same time, the limits of the wheels turn with the body: only a steady one is met.
-      const Eigen::Vector3d steady = kinematics.saturated(wheels(0.9 * std::cos(course), 0.0, 0.0));
+      const Eigen::Vector3d steady = drive.saturated(wheels(0.9 * std::cos(course), 0.0, 0.0));
       for (int i = 0; i < 100; ++i) command = limiter.limited(wanted, command, kLimiterPeriod);
       for (int i = 0; i < 100; ++i) command = limiter.limited(steady, command, kLimiterPeriod);
       ASSERT_LT((command - steady).norm(), 1e-9) << pair;
@@ -107,7 +107,7 @@ TEST_F(LimiterTest, KeepsTheLimitAsSeenFromTheBodyWhileItHardlyTurns) {
     const Eigen::Vector3d wanted =
         wheels(2.0 * random.normal(), 2.0 * random.normal(), random.uniform(-0.3, 0.3));
     const Eigen::Vector3d next = limiter.limited(wanted, command, kLimiterPeriod);
-    const Eigen::Vector3d change = kinematics.twist_body(next) - kinematics.twist_body(command);
+    const Eigen::Vector3d change = drive.twist_body(next) - drive.twist_body(command);
     ASSERT_LE(change.head<2>().norm(), 1.1 * robot.max_acceleration * kLimiterPeriod) << i;
     command = next;
   }
@@ -118,7 +118,7 @@ TEST_F(LimiterTest, BrakesStraightAndToTheEnd) {
   double heading = 0.0;
   int ticks = 0;
   while (!command.isZero() && ticks < 100) {
-    const Eigen::Vector3d twist = kinematics.twist_world(command, heading);
+    const Eigen::Vector3d twist = drive.twist_world(command, heading);
     EXPECT_NEAR(twist.x(), twist.y(), 0.1 * twist.head<2>().norm() + 1e-9);
     command = limiter.limited(Eigen::Vector3d::Zero(), command, kLimiterPeriod);
     heading += kLimiterPeriod * twist.z();
@@ -136,7 +136,7 @@ TEST_F(LimiterTest, LeadsBackWhatIsBeyondTheLimits) {
   double last = 1.2;
   for (int i = 0; i < 30; ++i) {
     command = limiter.limited(wheels(2.0, 0.0, 0.0), command, kLimiterPeriod);
-    const double speed = kinematics.twist_body(command).x();
+    const double speed = drive.twist_body(command).x();
     EXPECT_LE(speed, last);
     EXPECT_LE(last - speed, 1.1 * robot.max_acceleration * kLimiterPeriod);
     last = speed;
@@ -150,7 +150,7 @@ TEST_F(LimiterTest, ALowerLimitIsBrakedToAndLiftedAgain) {
   const auto speed_after = [&](double seconds) {
     for (int tick = 0; tick < std::lround(seconds / kLimiterPeriod); ++tick)
       command = limiter.limited(wanted, command, kLimiterPeriod);
-    return kinematics.twist_body(command).head<2>().norm();
+    return drive.twist_body(command).head<2>().norm();
   };
   limiter.set_max_speed(0.3);
   const double braked = 0.5 * CommandLimiter::kAccelerationSpare * robot.max_acceleration;
@@ -161,7 +161,7 @@ TEST_F(LimiterTest, ALowerLimitIsBrakedToAndLiftedAgain) {
   limiter.set_max_speed(10.0);  // no higher than the robot's own
   command = wheels(1.0, 0.0, 0.0);
   const double own = CommandLimiter::kSpeedSpare * robot.max_speed;
-  EXPECT_LE(kinematics.twist_body(limiter.limited(wheels(1.02, 0.0, 0.0), command, kLimiterPeriod)).x(),
+  EXPECT_LE(drive.twist_body(limiter.limited(wheels(1.02, 0.0, 0.0), command, kLimiterPeriod)).x(),
             own + 1e-9);
 }
 
@@ -169,8 +169,8 @@ TEST_F(LimiterTest, WhatIsNotANumberIsAWishToStand) {
   const Eigen::Vector3d previous = wheels(0.5, 0.0, 0.0);
   const Eigen::Vector3d braked =
       limiter.limited(Eigen::Vector3d::Constant(kNotANumber), previous, kLimiterPeriod);
-  EXPECT_LT(kinematics.twist_body(braked).x(), 0.5);
-  EXPECT_GT(kinematics.twist_body(braked).x(), 0.4);
+  EXPECT_LT(drive.twist_body(braked).x(), 0.5);
+  EXPECT_GT(drive.twist_body(braked).x(), 0.4);
   EXPECT_TRUE(limiter.limited(previous, Eigen::Vector3d::Constant(kNotANumber), kLimiterPeriod).isZero());
   EXPECT_TRUE(limiter.limited(previous, previous, kNotANumber).isZero());
 }

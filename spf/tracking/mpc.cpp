@@ -1,25 +1,12 @@
 #include "spf/tracking/mpc.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
+#include "spf/tracking/mpc_core.hpp"
+
 namespace spf {
 namespace {
-
-using Eigen::Vector3d;
-
-bool usable(const MpcProblem& problem, int horizon) {
-  if (problem.reference.steps != horizon) return false;
-  bool finite = problem.initial_pose.allFinite() && problem.disturbance.allFinite() &&
-                problem.previous_wheel_speeds.allFinite();
-  for (int k = 0; k <= horizon; ++k) {
-    finite = finite && problem.reference.pose[as_index(k)].allFinite();
-    if (k < horizon) finite = finite && problem.reference.wheel_speeds[as_index(k)].allFinite();
-  }
-  return finite;
-}
 
 void check_bounds(const std::string& axis, double lower, double upper) {
   if (lower <= upper) return;
@@ -27,179 +14,47 @@ void check_bounds(const std::string& axis, double lower, double upper) {
                               "_upper = " + std::to_string(upper) + " m");
 }
 
+std::unique_ptr<ModelPredictiveController::Core> core_for(const MpcParameters& parameters,
+                                                          const Drive& drive) {
+  static_assert(kMaxDriveInputs == 6);
+  switch (drive.inputs()) {
+    case 2:
+      return std::make_unique<MpcCore<2>>(parameters, drive);
+    case 3:
+      return std::make_unique<MpcCore<3>>(parameters, drive);
+    case 4:
+      return std::make_unique<MpcCore<4>>(parameters, drive);
+    case 5:
+      return std::make_unique<MpcCore<5>>(parameters, drive);
+    default:
+      return std::make_unique<MpcCore<6>>(parameters, drive);
+  }
+}
+
 }  // namespace
 
-ModelPredictiveController::ModelPredictiveController(const MpcParameters& parameters,
-                                                     const OmniKinematics& kinematics)
-    : parameters_{validated(parameters)}, kinematics_{kinematics} {
+ModelPredictiveController::ModelPredictiveController(const MpcParameters& parameters, const Drive& drive)
+    : parameters_{validated(parameters)} {
   check_bounds("x", parameters_.x_lower, parameters_.x_upper);
   check_bounds("y", parameters_.y_lower, parameters_.y_upper);
-  constexpr double kUnbounded = 1e30;
-  lq_.steps = parameters_.horizon;
-  lq_.state_weight = {parameters_.position_weight, parameters_.position_weight, parameters_.heading_weight};
-  lq_.effort_weight = parameters_.effort_weight;
-  lq_.rate_weight = parameters_.rate_weight;
-  lq_.slack_weight = parameters_.slack_weight;
-  lq_.input_upper.setConstant(kinematics_.max_wheel_speed());
-  lq_.input_lower = -lq_.input_upper;
-  lq_.lower = {parameters_.x_lower, parameters_.y_lower, -kUnbounded};
-  lq_.upper = {parameters_.x_upper, parameters_.y_upper, kUnbounded};
+  core_ = core_for(parameters_, drive);
 }
+
+ModelPredictiveController::~ModelPredictiveController() = default;
+ModelPredictiveController::ModelPredictiveController(ModelPredictiveController&&) noexcept = default;
+ModelPredictiveController& ModelPredictiveController::operator=(ModelPredictiveController&&) noexcept =
+    default;
 
 const MpcResult& ModelPredictiveController::solve(const MpcProblem& problem) {
-  if (!usable(problem, parameters_.horizon)) {
-    result_ = MpcResult{};
-    result_.wheel_speeds.fill(Vector3d::Zero());
-    result_.pose.fill(problem.initial_pose);
-    forget();
-    return result_;
-  }
-  set_up(problem);
-
-  // 1. About the reference. The heading of z_0 is the measured one, so that the first command has no
-  //    linearisation error.
-  trial_inputs_ = problem.reference.wheel_speeds;
-  trial_states_ = problem.reference.pose;
-  trial_states_[0] = problem.initial_pose;
-  linearise(problem, trial_states_, problem.reference.wheel_speeds);
-  BoxLqOutcome outcome = solver_.solve(lq_, trial_inputs_, parameters_.active_set_steps);
-  bool settled = outcome.solved;
-  result_.active_set_steps = outcome.active_set_steps;
-  result_.fell_back = outcome.fell_back;
-  result_.iterations = 1;
-  result_.wheel_speeds = trial_inputs_;
-  double cost = roll_out(problem, result_.wheel_speeds, result_.pose);
-  result_.status = MpcStatus::iteration_limit;
-
-  // 2. About the last solution; the best one counts.
-  best_inputs_ = result_.wheel_speeds;
-  double best_cost = cost;
-  while (result_.iterations < parameters_.iterations) {
-    ++result_.iterations;
-    linearise(problem, result_.pose, result_.wheel_speeds);
-    trial_inputs_ = result_.wheel_speeds;
-    outcome = solver_.solve(lq_, trial_inputs_, parameters_.active_set_steps);
-    settled = settled && outcome.solved;
-    result_.active_set_steps += outcome.active_set_steps;
-    result_.fell_back = result_.fell_back || outcome.fell_back;
-    cost = move_towards_trial(problem, cost);
-    if (cost <= best_cost + 1e-12 * (1.0 + best_cost)) {  // of two equals, the later
-      best_cost = cost;
-      best_inputs_ = result_.wheel_speeds;
-    }
-    if (result_.last_change <= parameters_.tolerance) {
-      result_.status = MpcStatus::converged;
-      break;
-    }
-  }
-  if (cost > best_cost + 1e-12 * (1.0 + best_cost)) {
-    result_.wheel_speeds = best_inputs_;
-    cost = roll_out(problem, best_inputs_, result_.pose);
-  }
-  if (!settled) result_.status = MpcStatus::step_limit;
-  return finish(problem, cost);
+  return core_->solve(problem);
 }
 
-void ModelPredictiveController::set_up(const MpcProblem& problem) {
-  lq_.initial = problem.initial_pose;
-  lq_.previous_input = problem.previous_wheel_speeds;
-  for (int k = 0; k < lq_.steps; ++k) {
-    lq_.stages[as_index(k)].reference = problem.reference.pose[as_index(k + 1)];
-    lq_.stages[as_index(k)].input_reference = problem.reference.wheel_speeds[as_index(k)];
-  }
+const MpcResult& ModelPredictiveController::last() const {
+  return core_->last();
 }
 
-// z' = z + dt (A(heading) v + d) with v = W^-1 u, to first order about a heading and u. Only the heading
-// enters the nonlinearity, and its own row is linear: the predicted headings are exact.
-void ModelPredictiveController::linearise(const MpcProblem& problem, const StateSequence& about,
-                                          const InputSequence<3>& inputs) {
-  const double dt = parameters_.dt;
-  for (int k = 0; k < lq_.steps; ++k) {
-    BoxLqStage<3>& stage = lq_.stages[as_index(k)];
-    const double heading = about[as_index(k)].z();
-    const Eigen::Matrix3d rotation = world_from_body(heading);
-    stage.input_matrix.noalias() = rotation * kinematics_.body_from_wheel();
-    stage.input_matrix *= dt;
-    const Vector3d moved = stage.input_matrix * inputs[as_index(k)];
-    stage.x_by_heading = -moved.y();
-    stage.y_by_heading = moved.x();
-    stage.offset = dt * problem.disturbance;
-    stage.offset.x() -= stage.x_by_heading * heading;
-    stage.offset.y() -= stage.y_by_heading * heading;
-  }
-}
-
-double ModelPredictiveController::roll_out(const MpcProblem& problem, const InputSequence<3>& inputs,
-                                           StateSequence& states) const {
-  states[0] = problem.initial_pose;
-  for (int k = 0; k < lq_.steps; ++k) {
-    const Vector3d& state = states[as_index(k)];
-    states[as_index(k + 1)] =
-        state +
-        parameters_.dt * (kinematics_.twist_world(inputs[as_index(k)], state.z()) + problem.disturbance);
-  }
-  return box_lq_cost(lq_, states, inputs);
-}
-
-// Line search from the last solution towards the trial inputs on the nonlinear cost. Full steps converge fast
-// while errors are moderate; far from the reference they oscillate, so the lowest point of the parabola
-// through three costs is tried too. The input bounds are convex, hence every point between is feasible.
-double ModelPredictiveController::move_towards_trial(const MpcProblem& problem, double cost) {
-  constexpr double kSmallChange = 1e-3;  // [m/s] below which full steps are safe
-  constexpr int kHalvings = 3;
-  double change = 0.0;
-  for (int k = 0; k < lq_.steps; ++k) {
-    input_steps_[as_index(k)] = trial_inputs_[as_index(k)] - result_.wheel_speeds[as_index(k)];
-    change = std::max(change, input_steps_[as_index(k)].cwiseAbs().maxCoeff());
-  }
-  double fraction = 1.0;
-  double trial_cost = try_fraction(problem, fraction);
-  if (change > kSmallChange) {
-    const double half_cost = try_fraction(problem, 0.5);
-    // cost + slope t + curvature t^2
-    const double curvature = 2.0 * (cost + trial_cost - 2.0 * half_cost);
-    const double slope = trial_cost - cost - curvature;
-    const double lowest = curvature > 0.0 ? std::clamp(-0.5 * slope / curvature, 0.1, 1.0) : 1.0;
-    const double lowest_cost = lowest < 0.9 ? try_fraction(problem, lowest) : trial_cost;
-    if (lowest_cost < trial_cost) fraction = lowest;
-    trial_cost = try_fraction(problem, fraction);
-  }
-  // Near the optimum costs agree to rounding, and the full step is taken.
-  const double acceptable = cost + 1e-12 * (1.0 + cost);
-  for (int i = 0; i < kHalvings && trial_cost > acceptable; ++i) {
-    fraction *= 0.5;
-    trial_cost = try_fraction(problem, fraction);
-  }
-  // Along a stiff wall every shorter step may cost more as well, since the wall is curved for the linear
-  // model. The full step makes progress; solve() remembers the best.
-  if (trial_cost > acceptable) {
-    fraction = 1.0;
-    trial_cost = try_fraction(problem, fraction);
-  }
-  result_.last_change = fraction * change;
-  std::swap(result_.wheel_speeds, trial_inputs_);
-  std::swap(result_.pose, trial_states_);
-  return trial_cost;
-}
-
-double ModelPredictiveController::try_fraction(const MpcProblem& problem, double fraction) {
-  for (int k = 0; k < lq_.steps; ++k) {
-    const Vector3d input = result_.wheel_speeds[as_index(k)] + fraction * input_steps_[as_index(k)];
-    trial_inputs_[as_index(k)] =
-        input.cwiseMax(lq_.input_lower).cwiseMin(lq_.input_upper);  // against rounding
-  }
-  return roll_out(problem, trial_inputs_, trial_states_);
-}
-
-const MpcResult& ModelPredictiveController::finish(const MpcProblem& problem, double cost) {
-  result_.cost = cost;
-  linearise(problem, result_.pose, result_.wheel_speeds);
-  result_.optimality_residual = solver_.optimality_residual(lq_, result_.pose, result_.wheel_speeds);
-  result_.largest_violation = 0.0;
-  for (int k = 1; k <= lq_.steps; ++k)
-    result_.largest_violation = std::max(
-        result_.largest_violation, bound_violation(lq_, result_.pose[as_index(k)]).cwiseAbs().maxCoeff());
-  return result_;
+void ModelPredictiveController::forget() {
+  core_->forget();
 }
 
 }  // namespace spf

@@ -2,18 +2,19 @@
 // reference. Departures from the printed problem, where it cannot be meant as printed: z_1..z_H are penalised
 // (the print leaves z_H free, so that always u_{H-1} = 0); the effort term asks for the reference's wheel
 // speeds instead of standstill; state bounds are soft (an infeasible start must still give a command) and
-// never bound z_0; the observer's disturbance is held over the horizon: z_{k+1} = z_k + dt (A(heading_k) W^-1
-// u_k + d). Frame: world; poses are vectors (x, y, heading) as in reference_sampler.hpp, wheel speeds are rim
-// speeds [m/s].
+// never bound z_0; the observer's disturbance is held over the horizon: z_{k+1} = z_k + dt (A(heading_k)
+// b(u_k)
+// + d), with b(u) the motion of the body that the drive makes of its inputs, W^-1 u for wheels. Frame: world;
+// poses are vectors (x, y, heading) as in reference_sampler.hpp, wheel speeds are rim speeds [m/s].
 #pragma once
 
 #include <Eigen/Core>
 
 #include <array>
+#include <memory>
 
 #include "spf/math/parameters.hpp"
-#include "spf/robot/omni_kinematics.hpp"
-#include "spf/tracking/box_lq.hpp"
+#include "spf/robot/drive.hpp"
 #include "spf/tracking/reference_sampler.hpp"
 
 namespace spf {
@@ -51,11 +52,14 @@ struct MpcParameters {
   }
 };
 
+/// u_0..u_{H-1} of a drive.
+using DriveInputs = std::array<DriveInput, kMaxHorizon>;
+
 struct MpcProblem {
-  Eigen::Vector3d initial_pose = Eigen::Vector3d::Zero();           ///< z_0
-  Eigen::Vector3d disturbance = Eigen::Vector3d::Zero();            ///< d, world [m/s, m/s, rad/s]
-  Eigen::Vector3d previous_wheel_speeds = Eigen::Vector3d::Zero();  ///< u_{-1} of the rate term
-  Reference reference;                                              ///< steps as MpcParameters::horizon
+  Eigen::Vector3d initial_pose = Eigen::Vector3d::Zero();  ///< z_0
+  Eigen::Vector3d disturbance = Eigen::Vector3d::Zero();   ///< d, world [m/s, m/s, rad/s]
+  DriveInput previous_wheel_speeds;                        ///< u_{-1} of the rate term
+  Reference reference;                                     ///< steps as MpcParameters::horizon
 };
 
 enum class MpcStatus {
@@ -68,9 +72,9 @@ enum class MpcStatus {
 
 struct MpcResult {
   MpcStatus status = MpcStatus::invalid_problem;
-  InputSequence<3> wheel_speeds;   ///< u_0..u_{H-1}, within the limits
-  StateSequence pose;              ///< z_0..z_H predicted by the nonlinear model
-  double cost = 0.0;               ///< of eq. 19 in our reading
+  DriveInputs wheel_speeds;                           ///< u_0..u_{H-1}, within the limits
+  std::array<Eigen::Vector3d, kMaxHorizon + 1> pose;  ///< z_0..z_H predicted by the nonlinear model
+  double cost = 0.0;                                  ///< of eq. 19 in our reading
   double optimality_residual = 0;  ///< largest component of the projected gradient; 0 at an optimum
   double largest_violation = 0;    ///< [m] of a soft bound by z_1..z_H
   double last_change = 0.0;        ///< [m/s] of a wheel speed by the last iteration
@@ -85,31 +89,23 @@ struct MpcResult {
 class ModelPredictiveController {
  public:
   /// Throws std::invalid_argument on parameters out of range or bounds that cross.
-  ModelPredictiveController(const MpcParameters& parameters, const OmniKinematics& kinematics);
+  ModelPredictiveController(const MpcParameters& parameters, const Drive& drive);
+  ~ModelPredictiveController();
+  ModelPredictiveController(ModelPredictiveController&&) noexcept;
+  ModelPredictiveController& operator=(ModelPredictiveController&&) noexcept;
 
   const MpcResult& solve(const MpcProblem& problem);
-  [[nodiscard]] const MpcResult& last() const { return result_; }
+  [[nodiscard]] const MpcResult& last() const;
   /// Drops the warm start. It changes the work, not the optimum.
-  void forget() { solver_.forget(); }
+  void forget();
   [[nodiscard]] const MpcParameters& parameters() const { return parameters_; }
 
- private:
-  void set_up(const MpcProblem& problem);
-  void linearise(const MpcProblem& problem, const StateSequence& about, const InputSequence<3>& inputs);
-  double roll_out(const MpcProblem& problem, const InputSequence<3>& inputs, StateSequence& states) const;
-  double move_towards_trial(const MpcProblem& problem, double cost);
-  double try_fraction(const MpcProblem& problem, double fraction);
-  const MpcResult& finish(const MpcProblem& problem, double cost);
+  /// The same for a fixed number of inputs (mpc_core.hpp).
+  class Core;
 
+ private:
   MpcParameters parameters_;
-  OmniKinematics kinematics_;
-  BoxLqProblem<3> lq_;
-  BoxLqSolver<3> solver_;
-  MpcResult result_;
-  InputSequence<3> trial_inputs_;
-  InputSequence<3> input_steps_;
-  InputSequence<3> best_inputs_;
-  StateSequence trial_states_;
+  std::unique_ptr<Core> core_;
 };
 
 }  // namespace spf

@@ -28,6 +28,7 @@ namespace {
 struct Comparison {
   int compared = 0;
   int oracle_failures = 0;
+  int unfinished = 0;                // of ours: not converged
   double relative_gap = 0.0;         // (our cost - Ipopt's) / Ipopt's
   double first_input = 0.0;          // [m/s]
   double optimality_residual = 0.0;  // of ours
@@ -40,7 +41,7 @@ struct Comparison {
 };
 
 MpcParameters to_convergence(MpcParameters parameters) {
-  parameters.iterations = 40;
+  parameters.iterations = 400;
   parameters.tolerance = 1e-10;
   return parameters;
 }
@@ -78,11 +79,11 @@ Comparison compare_cold(std::uint64_t seed, int count, const MpcInstanceOptions&
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = make_ipopt(1e-10);
   for (int i = 0; i < count; ++i) {
     const MpcInstance instance = make_mpc_instance(mix(seed, static_cast<std::uint64_t>(i)), options);
-    const OmniKinematics kinematics{instance.robot};
-    ModelPredictiveController mpc{to_convergence(instance.parameters), kinematics};
+    const Drive drive{instance.robot};
+    ModelPredictiveController mpc{to_convergence(instance.parameters), drive};
     const MpcResult& ours = mpc.solve(instance.problem);
-    EXPECT_EQ(ours.status, MpcStatus::converged) << "seed " << seed << " instance " << i;
-    auto* oracle = new MpcIpoptProblem{instance.parameters, kinematics};
+    if (ours.status != MpcStatus::converged) ++found.unfinished;
+    auto* oracle = new MpcIpoptProblem{instance.parameters, drive};
     const Ipopt::SmartPtr<Ipopt::TNLP> handle = oracle;
     compare(instance, ours, *oracle, *application, handle, found);
   }
@@ -104,6 +105,7 @@ Comparison compare_cold(std::uint64_t seed, int count, const MpcInstanceOptions&
 // minimum by its residual.
 void expect_agreement(const Comparison& found, int count) {
   EXPECT_LE(found.oracle_failures, count / 100);
+  EXPECT_LE(found.unfinished, count / 2000);
   EXPECT_GE(found.compared, count - count / 100);
   EXPECT_LE(found.other_minima, count / 50);
   EXPECT_LT(found.relative_gap, 1e-8);
@@ -117,9 +119,10 @@ TEST(MpcAgainstIpoptSlow, DerivativesOfTheOracle) {
   options.rate_weight = 0.1;
   options.disturbance = 0.1;
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = make_ipopt(1e-10, true);
-  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    options.drive = seed % 2 == 0 ? DriveType::omni : DriveType::car;
     const MpcInstance instance = make_mpc_instance(seed, options);
-    auto* oracle = new MpcIpoptProblem{instance.parameters, OmniKinematics{instance.robot}};
+    auto* oracle = new MpcIpoptProblem{instance.parameters, Drive{instance.robot}};
     const Ipopt::SmartPtr<Ipopt::TNLP> handle = oracle;
     oracle->set_problem(instance.problem);
     ::testing::internal::CaptureStdout();
@@ -136,6 +139,35 @@ TEST(MpcAgainstIpoptSlow, PaperHorizon) {
   EXPECT_EQ(found.other_minima, 0);
   EXPECT_GT(found.inputs_at_limit, 150);
   EXPECT_GT(found.bounds_violated, 100);
+}
+
+// The other drives. Their MPC is that of three wheels with other inputs.
+TEST(MpcAgainstIpoptSlow, FourOmniWheels) {
+  MpcInstanceOptions options;
+  options.wheels = 4;
+  expect_agreement(compare_cold(111, 250, options), 250);
+}
+
+TEST(MpcAgainstIpoptSlow, Mecanum) {
+  MpcInstanceOptions options;
+  options.drive = DriveType::mecanum;
+  expect_agreement(compare_cold(112, 250, options), 250);
+}
+
+TEST(MpcAgainstIpoptSlow, Differential) {
+  MpcInstanceOptions options;
+  options.drive = DriveType::differential;
+  expect_agreement(compare_cold(113, 2000, options), 2000);
+}
+
+// Of a car 0.3 m beside its reference, or before a wall, to steer left and to steer right are two minima: of
+// such instances the two solvers part in one of ten. Nearer, and without walls, there is one.
+TEST(MpcAgainstIpoptSlow, Car) {
+  MpcInstanceOptions options;
+  options.drive = DriveType::car;
+  options.position_error = options.heading_error = 0.1;
+  options.wall_share = 0.0;
+  expect_agreement(compare_cold(114, 2000, options), 2000);
 }
 
 TEST(MpcAgainstIpoptSlow, SmallArmOfThePaper) {
@@ -180,9 +212,9 @@ TEST(MpcAgainstIpoptSlow, WarmStarts) {
   for (std::uint64_t chain = 0; chain < 20; ++chain) {
     MpcInstance instance = make_mpc_instance(mix(107, chain), options);
     instance.parameters.x_upper = instance.problem.initial_pose.x() + 0.4;
-    const OmniKinematics kinematics{instance.robot};
-    ModelPredictiveController mpc{to_convergence(instance.parameters), kinematics};
-    auto* oracle = new MpcIpoptProblem{instance.parameters, kinematics};
+    const Drive drive{instance.robot};
+    ModelPredictiveController mpc{to_convergence(instance.parameters), drive};
+    auto* oracle = new MpcIpoptProblem{instance.parameters, drive};
     const Ipopt::SmartPtr<Ipopt::TNLP> handle = oracle;
     RandomStream random{mix(108, chain)};
     for (int step = 0; step < 8; ++step) {
@@ -204,9 +236,9 @@ TEST(MpcAgainstIpoptSlow, TwoIterationsAreNearOptimal) {
   Comparison found;
   for (std::uint64_t i = 0; i < 100; ++i) {
     const MpcInstance instance = make_mpc_instance(mix(109, i), MpcInstanceOptions{});
-    const OmniKinematics kinematics{instance.robot};
-    ModelPredictiveController mpc{instance.parameters, kinematics};
-    auto* oracle = new MpcIpoptProblem{instance.parameters, kinematics};
+    const Drive drive{instance.robot};
+    ModelPredictiveController mpc{instance.parameters, drive};
+    auto* oracle = new MpcIpoptProblem{instance.parameters, drive};
     const Ipopt::SmartPtr<Ipopt::TNLP> handle = oracle;
     compare(instance, mpc.solve(instance.problem), *oracle, *application, handle, found);
   }
@@ -215,6 +247,31 @@ TEST(MpcAgainstIpoptSlow, TwoIterationsAreNearOptimal) {
   // Gauss-Newton gains about a digit an iteration: measured 5e-5 and 7e-3 m/s at worst.
   EXPECT_LT(found.relative_gap, 5e-4);
   EXPECT_LT(found.first_input, 5e-2);
+}
+
+// Likewise of drives that cannot move sideways, for which Gauss-Newton leaves out more.
+TEST(MpcAgainstIpoptSlow, TwoIterationsAreNearOptimalOnDrivesThatSteer) {
+  const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = make_ipopt(1e-10);
+  for (const DriveType drive_type : {DriveType::differential, DriveType::car}) {
+    Comparison found;
+    MpcInstanceOptions options;
+    options.drive = drive_type;
+    options.position_error = options.heading_error = 0.1;
+    options.wall_share = 0.0;
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      const MpcInstance instance = make_mpc_instance(mix(111, i), options);
+      const Drive drive{instance.robot};
+      ModelPredictiveController mpc{instance.parameters, drive};
+      auto* oracle = new MpcIpoptProblem{instance.parameters, drive};
+      const Ipopt::SmartPtr<Ipopt::TNLP> handle = oracle;
+      compare(instance, mpc.solve(instance.problem), *oracle, *application, handle, found);
+    }
+    std::cout << enum_name(drive_type) << ", two iterations: gap " << found.relative_gap << ", first input "
+              << found.first_input << "\n";
+    EXPECT_GE(found.compared, 99);
+    EXPECT_LT(found.relative_gap, 0.05);
+    EXPECT_LT(found.first_input, 0.1);
+  }
 }
 
 // Far off, where the wheels saturate throughout and Gauss-Newton alone would oscillate.
@@ -227,9 +284,9 @@ TEST(MpcAgainstIpoptSlow, TwoIterationsAreUsableFarFromTheReference) {
   int compared = 0;
   for (std::uint64_t i = 0; i < 60; ++i) {
     const MpcInstance instance = make_mpc_instance(mix(110, i), options);
-    const OmniKinematics kinematics{instance.robot};
-    ModelPredictiveController mpc{instance.parameters, kinematics};
-    auto* oracle = new MpcIpoptProblem{instance.parameters, kinematics};
+    const Drive drive{instance.robot};
+    ModelPredictiveController mpc{instance.parameters, drive};
+    auto* oracle = new MpcIpoptProblem{instance.parameters, drive};
     const Ipopt::SmartPtr<Ipopt::TNLP> handle = oracle;
     oracle->set_problem(instance.problem);
     if (application->OptimizeTNLP(handle) != Ipopt::Solve_Succeeded) continue;

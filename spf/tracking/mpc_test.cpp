@@ -15,16 +15,15 @@ namespace {
 using Eigen::Vector3d;
 
 /// Cost of eq. 19 in our reading, written down once more from the definition.
-double cost_of(const MpcInstance& instance, const InputSequence<3>& inputs) {
+double cost_of(const MpcInstance& instance, const DriveInputs& inputs) {
   const MpcParameters& p = instance.parameters;
-  const OmniKinematics kinematics{instance.robot};
+  const Drive drive{instance.robot};
   Vector3d pose = instance.problem.initial_pose;
   Vector3d before = instance.problem.previous_wheel_speeds;
   double cost = 0.0;
   for (int k = 0; k < p.horizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    pose += p.dt * (world_from_body(pose.z()) * kinematics.body_from_wheel() * inputs[i] +
-                    instance.problem.disturbance);
+    pose += p.dt * (drive.twist_world(inputs[i], pose.z()) + instance.problem.disturbance);
     const Vector3d error = pose - instance.problem.reference.pose[i + 1];
     cost += p.position_weight * error.head<2>().squaredNorm() + p.heading_weight * error.z() * error.z();
     cost += p.effort_weight * (inputs[i] - instance.problem.reference.wheel_speeds[i]).squaredNorm();
@@ -39,10 +38,10 @@ double cost_of(const MpcInstance& instance, const InputSequence<3>& inputs) {
   return cost;
 }
 
-double difference_quotient(const MpcInstance& instance, const InputSequence<3>& inputs, std::size_t k, int i,
+double difference_quotient(const MpcInstance& instance, const DriveInputs& inputs, std::size_t k, int i,
                            double step) {
-  InputSequence<3> plus = inputs;
-  InputSequence<3> minus = inputs;
+  DriveInputs plus = inputs;
+  DriveInputs minus = inputs;
   plus[k][i] += step;
   minus[k][i] -= step;
   return (cost_of(instance, plus) - cost_of(instance, minus)) / (2.0 * step);
@@ -67,7 +66,7 @@ TEST(Mpc, SolutionMeetsTheOptimalityConditions) {
     instance.parameters.iterations = 40;
     instance.parameters.tolerance = 1e-9;
     const double limit = instance.robot.max_wheel_speed;
-    ModelPredictiveController mpc{instance.parameters, OmniKinematics{instance.robot}};
+    ModelPredictiveController mpc{instance.parameters, Drive{instance.robot}};
     const MpcResult& result = mpc.solve(instance.problem);
     ASSERT_EQ(result.status, MpcStatus::converged);
     EXPECT_NEAR(result.cost, cost_of(instance, result.wheel_speeds), 1e-10 * (1.0 + result.cost));
@@ -104,7 +103,7 @@ TEST(Mpc, ReportsTheResidualOfTheNonlinearProblem) {
     options.heading_error = 0.6;
     MpcInstance instance = make_mpc_instance(mix(32, static_cast<std::uint64_t>(n)), options);
     instance.parameters.iterations = 1;  // one linearisation about the reference: not yet optimal
-    ModelPredictiveController mpc{instance.parameters, OmniKinematics{instance.robot}};
+    ModelPredictiveController mpc{instance.parameters, Drive{instance.robot}};
     const MpcResult result = mpc.solve(instance.problem);
     const double limit = instance.robot.max_wheel_speed;
     double expected = 0.0;
@@ -128,7 +127,7 @@ TEST(Mpc, FollowsAReferenceItStandsOnExactly) {
   options.wall_share = 0.0;
   for (std::uint64_t n = 0; n < 50; ++n) {
     const MpcInstance instance = make_mpc_instance(mix(33, n), options);
-    ModelPredictiveController mpc{instance.parameters, OmniKinematics{instance.robot}};
+    ModelPredictiveController mpc{instance.parameters, Drive{instance.robot}};
     const MpcResult& result = mpc.solve(instance.problem);
     EXPECT_LT(result.cost, 1e-20);
     EXPECT_LT((result.wheel_speeds[0] - instance.problem.reference.wheel_speeds[0]).norm(), 1e-10);
@@ -147,8 +146,8 @@ TEST(Mpc, CancelsTheDisturbanceItIsTold) {
   instance.parameters.effort_weight = 1e-6;
   instance.problem.disturbance = {0.1, -0.05, 0.2};
   instance.parameters.iterations = 20;
-  const OmniKinematics kinematics{instance.robot};
-  ModelPredictiveController mpc{instance.parameters, kinematics};
+  const Drive drive{instance.robot};
+  ModelPredictiveController mpc{instance.parameters, drive};
   const MpcResult& result = mpc.solve(instance.problem);
   // With next to no effort weight every z_k is on its reference: left over is the weights' ratio, 1e-6 / (10
   // dt^2).
@@ -172,9 +171,9 @@ TEST(Mpc, TurnsWithTheScene) {
     for (std::size_t k = 0; k <= 5; ++k)
       turned.problem.reference.pose[k] =
           rotation * instance.problem.reference.pose[k] + Vector3d{3.0, -4.0, angle};
-    const OmniKinematics kinematics{instance.robot};
-    ModelPredictiveController first{instance.parameters, kinematics};
-    ModelPredictiveController second{turned.parameters, kinematics};
+    const Drive drive{instance.robot};
+    ModelPredictiveController first{instance.parameters, drive};
+    ModelPredictiveController second{turned.parameters, drive};
     const Vector3d expected = first.solve(instance.problem).wheel_speeds[0];
     EXPECT_LT((second.solve(turned.problem).wheel_speeds[0] - expected).norm(), 1e-8);
   }
@@ -187,12 +186,12 @@ TEST(Mpc, WarmStartDoesNotChangeTheAnswer) {
   MpcInstance instance = make_mpc_instance(36, options);
   instance.parameters.iterations = 40;
   instance.parameters.tolerance = 1e-10;
-  const OmniKinematics kinematics{instance.robot};
-  ModelPredictiveController warm{instance.parameters, kinematics};
+  const Drive drive{instance.robot};
+  ModelPredictiveController warm{instance.parameters, drive};
   RandomStream random{5};
   int fewer = 0;
   for (int step = 0; step < 100; ++step) {
-    ModelPredictiveController cold{instance.parameters, kinematics};
+    ModelPredictiveController cold{instance.parameters, drive};
     const MpcResult& expected = cold.solve(instance.problem);
     const MpcResult& result = warm.solve(instance.problem);
     EXPECT_LT((result.wheel_speeds[0] - expected.wheel_speeds[0]).norm(), 1e-7) << step;
@@ -211,7 +210,7 @@ TEST(Mpc, RateWeightSmoothsTheInputs) {
     for (const double weight : {0.0, 1.0}) {
       options.rate_weight = weight;
       const MpcInstance instance = make_mpc_instance(mix(37, n), options);
-      ModelPredictiveController mpc{instance.parameters, OmniKinematics{instance.robot}};
+      ModelPredictiveController mpc{instance.parameters, Drive{instance.robot}};
       const Vector3d step =
           mpc.solve(instance.problem).wheel_speeds[0] - instance.problem.previous_wheel_speeds;
       (weight > 0.0 ? smooth : plain) += step.norm();
@@ -222,7 +221,7 @@ TEST(Mpc, RateWeightSmoothsTheInputs) {
 
 TEST(Mpc, StandsOnInputThatIsNotANumber) {
   MpcInstance instance = make_mpc_instance(38, MpcInstanceOptions{});
-  ModelPredictiveController mpc{instance.parameters, OmniKinematics{instance.robot}};
+  ModelPredictiveController mpc{instance.parameters, Drive{instance.robot}};
   const MpcProblem good = instance.problem;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   MpcProblem bad = good;
@@ -247,7 +246,7 @@ TEST(Mpc, GivesAFeasibleCommandWhenItRunsOutOfSteps) {
     options.position_error = 1.0;
     MpcInstance instance = make_mpc_instance(mix(39, n), options);
     instance.parameters.active_set_steps = 1;
-    ModelPredictiveController mpc{instance.parameters, OmniKinematics{instance.robot}};
+    ModelPredictiveController mpc{instance.parameters, Drive{instance.robot}};
     const MpcResult& result = mpc.solve(instance.problem);
     EXPECT_NE(result.status, MpcStatus::invalid_problem);
     // No worse than driving the reference's wheel speeds.
@@ -263,21 +262,21 @@ TEST(Mpc, DoesNotAllocate) {
   options.horizon = 20;
   options.wall_share = 1.0;
   const MpcInstance instance = make_mpc_instance(40, options);
-  ModelPredictiveController mpc{instance.parameters, OmniKinematics{instance.robot}};
+  ModelPredictiveController mpc{instance.parameters, Drive{instance.robot}};
   const AllocationGuard guard;
   for (int i = 0; i < 10; ++i) mpc.solve(instance.problem);
   EXPECT_EQ(guard.allocations(), 0);
 }
 
 TEST(Mpc, RefusesParametersOutOfRange) {
-  const OmniKinematics kinematics{RobotParameters{}};
+  const Drive drive{RobotParameters{}};
   MpcParameters parameters;
   parameters.horizon = 21;
-  EXPECT_THROW((ModelPredictiveController{parameters, kinematics}), std::invalid_argument);
+  EXPECT_THROW((ModelPredictiveController{parameters, drive}), std::invalid_argument);
   parameters = MpcParameters{};
   parameters.x_lower = 2.0;
   parameters.x_upper = 1.0;
-  EXPECT_THROW((ModelPredictiveController{parameters, kinematics}), std::invalid_argument);
+  EXPECT_THROW((ModelPredictiveController{parameters, drive}), std::invalid_argument);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct PoseAndTwist {
 
 PoseAndTwist evaluate(const Trajectory& trajectory, double time) {
   const FlatState flat = trajectory.state(time);
-  const HeadingState heading = trajectory.heading().state(time);
+  const HeadingState heading = trajectory.heading_state(time);
   return {{flat.position_world.x(), flat.position_world.y(), heading.heading},
           {flat.velocity_world.x(), flat.velocity_world.y(), heading.yaw_rate}};
 }
@@ -33,8 +33,8 @@ PoseAndTwist evaluate_held(const Trajectory& trajectory, double time, double int
 
 }  // namespace
 
-Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest& request,
-                           const OmniKinematics& kinematics, const ReferenceParameters& parameters) {
+Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest& request, const Drive& drive,
+                           const ReferenceParameters& parameters) {
   assert(!trajectory.empty() && request.dt > 0.0);
   assert(1 <= request.steps && request.steps <= kMaxHorizon);
   Reference reference;
@@ -61,8 +61,7 @@ Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest&
   for (std::size_t k = 0; k < static_cast<std::size_t>(request.steps); ++k) {
     Eigen::Vector3d twist = Eigen::Vector3d::Zero();  // held points ask for zero velocity
     if (parameters.self_sampling) twist = (reference.pose[k + 1] - reference.pose[k]) / request.dt;
-    reference.wheel_speeds[k] =
-        kinematics.saturated(kinematics.wheel_speeds_from_world(twist, reference.pose[k].z()));
+    reference.wheel_speeds[k] = drive.saturated(drive.input_from_world(twist, reference.pose[k].z()));
   }
   return reference;
 }

@@ -10,7 +10,7 @@
 
 #include "spf/math/parameters.hpp"
 #include "spf/math/pose2.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 #include "spf/trajectory/trajectory.hpp"
 
 namespace spf {
@@ -49,14 +49,12 @@ struct Reference {
   int steps = 0;
   std::array<Eigen::Vector3d, kMaxHorizon + 1> pose;   ///< points 0..H
   std::array<Eigen::Vector3d, kMaxHorizon + 1> twist;  ///< world [m/s, m/s, rad/s], points 0..H
-  std::array<Eigen::Vector3d, kMaxHorizon>
-      wheel_speeds;  ///< [m/s] within the limits, steps 0..H-1: they move the
-                     ///< MPC's model from point k to point k + 1
+  std::array<DriveInput, kMaxHorizon> wheel_speeds;  ///< [m/s] within the limits, steps 0..H-1: they move the
+                                                     ///< MPC's model from point k to point k + 1
 };
 
 /// Never throws, never allocates. Requires a trajectory that is not empty, 1 <= steps <= kMaxHorizon, dt > 0.
 [[nodiscard]] Reference sample_reference(const Trajectory& trajectory, const ReferenceRequest& request,
-                                         const OmniKinematics& kinematics,
-                                         const ReferenceParameters& parameters);
+                                         const Drive& drive, const ReferenceParameters& parameters);
 
 }  // namespace spf

@@ -13,7 +13,7 @@
 namespace spf {
 namespace {
 
-const OmniKinematics kKinematics{RobotParameters{}};
+const Drive kKinematics{RobotParameters{}};
 
 QuinticPiece random_piece(RandomStream& random, double duration) {
   QuinticPiece piece;
@@ -70,7 +70,7 @@ TEST(ReferenceSampler, WheelSpeedsLeadTheModelFromPointToPoint) {
       const Eigen::Vector3d twist = kKinematics.twist_world(reference.wheel_speeds[k], reference.pose[k].z());
       const Eigen::Vector3d wanted = (reference.pose[k + 1] - reference.pose[k]) / 0.1;
       const bool within =
-          kKinematics.wheel_speeds_from_world(wanted, reference.pose[k].z()).cwiseAbs().maxCoeff() < 1.5;
+          kKinematics.input_from_world(wanted, reference.pose[k].z()).cwiseAbs().maxCoeff() < 1.5;
       EXPECT_TRUE(!within || (twist - wanted).norm() < 1e-10);
       EXPECT_LE(reference.wheel_speeds[k].cwiseAbs().maxCoeff(), 1.5);
     }

@@ -10,7 +10,7 @@
 
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
-#include "spf/robot/omni_dynamics.hpp"
+#include "spf/robot/drive_dynamics.hpp"
 #include "spf/testing/allocation_guard.hpp"
 #include "spf/tracking/test/plan_through.hpp"
 
@@ -57,8 +57,8 @@ LoopResult run_loop(const TrackerParameters& parameters, const Trajectory& traje
   const RobotParameters robot;
   Tracker tracker{parameters, robot};
   const FlatState head = trajectory.state(0.0);
-  OmniDynamics plant{
-      robot, PlantState{Pose2{head.position_world, trajectory.heading().state(0.0).heading}, {0, 0, 0}}};
+  DriveDynamics plant{
+      robot, PlantState{Pose2{head.position_world, trajectory.heading_state(0.0).heading}, {0, 0, 0}}};
   RandomStream random{123};
   LoopResult result;
   Eigen::Vector3d command = Eigen::Vector3d::Zero();
@@ -80,12 +80,11 @@ LoopResult run_loop(const TrackerParameters& parameters, const Trajectory& traje
     plant.step(0.005, command);
     PlantState state = plant.state();
     state.pose_world.position_world -= options.wheel_slip * (state.pose_world.position_world - before);
-    plant = OmniDynamics{robot, state};
+    plant = DriveDynamics{robot, state};
 
     const double now = time + 0.005;
     const double error = (state.pose_world.position_world - trajectory.position(now)).norm();
-    const double heading =
-        angle_difference(state.pose_world.heading, trajectory.heading().state(now).heading);
+    const double heading = angle_difference(state.pose_world.heading, trajectory.heading_state(now).heading);
     if (now > 0.5) result.largest_error = std::max(result.largest_error, error);
     result.largest_heading = std::max(result.largest_heading, std::abs(heading));
     sum += error * error;
@@ -239,8 +238,8 @@ TEST(Tracker, ReportsReferenceAndCommand) {
   const TrackerOutput& output = tracker.step(4.0, trajectory);
   EXPECT_LT((output.reference_pose.head<2>() - trajectory.position(4.0)).norm(), 1e-12);
   EXPECT_NEAR(output.reference_pose.z(), 0.3, 1e-12);
-  const OmniKinematics kinematics{RobotParameters{}};
-  EXPECT_LT((kinematics.twist_world(output.wheel_speeds, 0.3) - output.twist_world).norm(), 1e-12);
+  const Drive drive{RobotParameters{}};
+  EXPECT_LT((drive.twist_world(output.wheel_speeds, 0.3) - output.twist_world).norm(), 1e-12);
 }
 
 TEST(Tracker, DoesNotAllocate) {

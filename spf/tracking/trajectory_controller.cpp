@@ -4,15 +4,13 @@
 
 namespace spf {
 
-TrajectoryController::TrajectoryController(const TrackerParameters& parameters,
-                                           const OmniKinematics& kinematics, double motor_lag)
-    : parameters_{validated(parameters)},
-      kinematics_{kinematics},
-      lag_{motor_lag},
-      mpc_{parameters.mpc, kinematics} {}
+TrajectoryController::TrajectoryController(const TrackerParameters& parameters, const Drive& drive,
+                                           double motor_lag)
+    : parameters_{validated(parameters)}, drive_{drive}, lag_{motor_lag}, mpc_{parameters.mpc, drive} {}
 
 const TrackerOutput& TrajectoryController::stand(TrackerStatus status) {
   output_ = TrackerOutput{};
+  output_.wheel_speeds = drive_.standstill();
   output_.status = status;
   mpc_.forget();
   return output_;
@@ -29,11 +27,11 @@ const TrackerOutput& TrajectoryController::step(double time, const MotionState& 
   const MpcParameters& mpc = parameters_.mpc;
   const ReferenceRequest request{
       time, mpc.dt, mpc.horizon, lag_, parameters_.control_period, estimate.pose_world};
-  problem_.reference = sample_reference(committed, request, kinematics_, parameters_.reference);
+  problem_.reference = sample_reference(committed, request, drive_, parameters_.reference);
 
   // 2. The command that leads there (eq. 19), for the point one motor lag ahead.
   const Eigen::Vector3d twist =
-      kinematics_.twist_world(state.wheel_speeds, estimate.pose_world.heading) + estimate.disturbance_world;
+      drive_.twist_world(state.wheel_speeds, estimate.pose_world.heading) + estimate.disturbance_world;
   problem_.initial_pose << estimate.pose_world.position_world, estimate.pose_world.heading;
   problem_.initial_pose += lag_ * twist;
   problem_.disturbance = estimate.disturbance_world;
@@ -44,7 +42,7 @@ const TrackerOutput& TrajectoryController::step(double time, const MotionState& 
   output_.status = TrackerStatus::tracking;
   output_.mpc_status = result.status;
   output_.wheel_speeds = result.wheel_speeds[0];
-  output_.twist_world = kinematics_.twist_world(output_.wheel_speeds, estimate.pose_world.heading);
+  output_.twist_world = drive_.twist_world(output_.wheel_speeds, estimate.pose_world.heading);
   output_.reference_twist = problem_.reference.twist[0];
   output_.reference_pose = problem_.reference.pose[0] - lag_ * problem_.reference.twist[0];
   return output_;

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "spf/localisation/motion_estimator.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 #include "spf/tracking/mpc.hpp"
 #include "spf/tracking/reference_sampler.hpp"
 #include "spf/tracking/tracker_parameters.hpp"
@@ -26,8 +26,7 @@ enum class TrackerStatus {
 
 struct TrackerOutput {
   TrackerStatus status = TrackerStatus::no_estimate;
-  Eigen::Vector3d wheel_speeds =
-      Eigen::Vector3d::Zero();  ///< [m/s] within the limits; hold until the next tick
+  DriveInput wheel_speeds;                                    ///< within the limits; hold until the next tick
   Eigen::Vector3d twist_world = Eigen::Vector3d::Zero();      ///< [m/s, m/s, rad/s] that they command
   Eigen::Vector3d reference_pose = Eigen::Vector3d::Zero();   ///< where the plan wants the robot now
   Eigen::Vector3d reference_twist = Eigen::Vector3d::Zero();  ///< and how fast
@@ -39,8 +38,7 @@ class TrajectoryController {
  public:
   /// `motor_lag` as the estimator reckons with it [s]. Throws std::invalid_argument on parameters out of
   /// range.
-  TrajectoryController(const TrackerParameters& parameters, const OmniKinematics& kinematics,
-                       double motor_lag);
+  TrajectoryController(const TrackerParameters& parameters, const Drive& drive, double motor_lag);
 
   /// One control tick at a time [s], with the state at that time.
   const TrackerOutput& step(double time, const MotionState& state, const Trajectory& committed);
@@ -53,7 +51,7 @@ class TrajectoryController {
   const TrackerOutput& stand(TrackerStatus status);
 
   TrackerParameters parameters_;
-  OmniKinematics kinematics_;
+  Drive drive_;
   double lag_;  // [s] reckoned with
   ModelPredictiveController mpc_;
   MpcProblem problem_;

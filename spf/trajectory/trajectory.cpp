@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/angles.hpp"
 #include "spf/math/polynomial_roots.hpp"
 #include "spf/math/quadrature.hpp"
 
@@ -119,6 +120,14 @@ void Trajectory::append(const QuinticPiece& piece) {
   duration_ += piece.duration;
 }
 
+void Trajectory::append(const QuinticPiece& piece, const HeadingState& from, const HeadingState& to) {
+  assert(steered_ || empty());
+  steered_ = true;
+  knots_[static_cast<std::size_t>(piece_count_)] = from;
+  append(piece);
+  knots_[static_cast<std::size_t>(piece_count_)] = to;
+}
+
 Trajectory::LocalTime Trajectory::locate(double time) const {
   assert(!empty());
   double local_time = std::max(0.0, time - start_time_);
@@ -142,6 +151,28 @@ FlatState Trajectory::state(double time) const {
 Eigen::Vector2d Trajectory::position(double time) const {
   const LocalTime at = locate(time);
   return piece(at.index).position(at.local_time);
+}
+
+HeadingState Trajectory::heading_state(double time) const {
+  if (!steered_) return heading_.state(time);
+  const LocalTime at = locate(time);
+  const HeadingState& from = heading_knot(at.index);
+  const HeadingState& to = heading_knot(at.index + 1);
+  if (time < start_time_) return {from.heading, 0.0};
+  if (time > end_time()) return {to.heading, 0.0};
+  const double duration = piece(at.index).duration;
+  const double turn = angle_difference(to.heading, from.heading);
+  const double r0 = from.yaw_rate * duration;
+  const double r1 = to.yaw_rate * duration;
+  const double u = at.local_time / duration;
+  const double second = 3.0 * turn - 2.0 * r0 - r1;
+  const double third = r0 + r1 - 2.0 * turn;
+  return {wrap_angle(from.heading + u * (r0 + u * (second + u * third))),
+          (r0 + u * (2.0 * second + u * 3.0 * third)) / duration};
+}
+
+double Trajectory::rest_time() const {
+  return steered_ ? end_time() : std::max(end_time(), heading_.start_time() + heading_.turn_duration());
 }
 
 Eigen::Vector2d Trajectory::tail_position() const {

@@ -1,6 +1,6 @@
 // A planned motion: quintic position pieces over absolute time, and the heading beside them (Section
-// "Trajectory representation", eq. 5-6). Fixed capacity, so that copying and evaluating never allocate.
-// Frame: world.
+// "Trajectory representation", eq. 5-6); of robots that cannot move sideways with them. Fixed capacity, so
+// that copying and evaluating never allocate. Frame: world.
 #pragma once
 
 #include <Eigen/Core>
@@ -45,6 +45,10 @@ class Trajectory {
 
   /// Appends a piece with duration > 0; at most kMaxPieces.
   void append(const QuinticPiece& piece);
+  /// Appends a piece on which the heading [rad] and its rate go from one state to another as a cubic, on the
+  /// shorter side, so that the robot turns by less than half a circle. All pieces or none have their heading.
+  void append(const QuinticPiece& piece, const HeadingState& from, const HeadingState& to);
+  /// Of a trajectory whose pieces do not have theirs.
   void set_heading(const HeadingProfile& heading) { heading_ = heading; }
 
   [[nodiscard]] bool empty() const { return piece_count_ == 0; }
@@ -54,6 +58,13 @@ class Trajectory {
     return pieces_[static_cast<std::size_t>(index)];
   }
   [[nodiscard]] const HeadingProfile& heading() const { return heading_; }
+  /// Whether the pieces have their own heading, that of a robot that cannot move sideways.
+  [[nodiscard]] bool steered() const { return steered_; }
+  /// At the start of a piece, or at the end of the last; of a steered one.
+  [[nodiscard]] const HeadingState& heading_knot(int index) const {
+    assert(steered_ && 0 <= index && index <= piece_count_);
+    return knots_[static_cast<std::size_t>(index)];
+  }
   [[nodiscard]] double start_time() const { return start_time_; }  ///< [s]
   [[nodiscard]] double duration() const { return duration_; }      ///< [s]
   [[nodiscard]] double end_time() const { return start_time_ + duration_; }
@@ -62,6 +73,10 @@ class Trajectory {
   /// Requires !empty().
   [[nodiscard]] FlatState state(double time) const;
   [[nodiscard]] Eigen::Vector2d position(double time) const;
+  /// Heading and yaw rate at an absolute time, whichever way the heading is given.
+  [[nodiscard]] HeadingState heading_state(double time) const;
+  /// [s] when neither position nor heading changes any more.
+  [[nodiscard]] double rest_time() const;
   [[nodiscard]] Eigen::Vector2d tail_position() const;
   /// Bounds over the motion, found from polynomial roots to rounding, not by sampling [m/s], [m/s^2].
   [[nodiscard]] double max_speed() const;
@@ -82,6 +97,8 @@ class Trajectory {
   double start_time_ = 0.0;
   double duration_ = 0.0;
   HeadingProfile heading_;
+  bool steered_ = false;
+  std::array<HeadingState, kMaxPieces + 1> knots_;
 };
 
 }  // namespace spf

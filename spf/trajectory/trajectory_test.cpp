@@ -114,7 +114,7 @@ TEST(Trajectory, StandingStaysInPlace) {
   }
   EXPECT_EQ(trajectory.start_time(), 4.0);
   EXPECT_EQ(trajectory.duration(), 3.0);
-  EXPECT_EQ(trajectory.heading().state(5.0).heading, 0.7);
+  EXPECT_EQ(trajectory.heading_state(5.0).heading, 0.7);
   EXPECT_EQ(trajectory.max_speed(), 0.0);
   EXPECT_EQ(trajectory.max_acceleration(), 0.0);
   EXPECT_EQ(trajectory.length(), 0.0);

@@ -35,6 +35,11 @@ bool usable(const Trajectory& trajectory) {
   for (int k = 0; k < trajectory.piece_count(); ++k) {
     if (!usable(trajectory.piece(k))) return false;
   }
+  if (!trajectory.steered()) return true;
+  for (int k = 0; k <= trajectory.piece_count(); ++k) {
+    const HeadingState& knot = trajectory.heading_knot(k);
+    if (!believable(knot.heading) || !believable(knot.yaw_rate)) return false;
+  }
   return true;
 }
 

@@ -135,7 +135,7 @@ nav_msgs::Path path_message(const spf::Trajectory& plan, double from, const Cloc
     geometry_msgs::PoseStamped stamped;
     stamped.header.stamp = clock.time(time);
     stamped.header.frame_id = frame;
-    stamped.pose = to_message(spf::Pose2{plan.position(time), plan.heading().state(time).heading});
+    stamped.pose = to_message(spf::Pose2{plan.position(time), plan.heading_state(time).heading});
     path.poses.push_back(stamped);
   });
   return path;

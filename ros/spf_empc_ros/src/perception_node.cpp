@@ -43,7 +43,7 @@ void PerceptionNode::on_scan(const sensor_msgs::LaserScan::ConstPtr& scan) {
 }
 
 void PerceptionNode::on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels) {
-  const Converted<Eigen::Vector3d> speeds = from_message(*wheels);
+  const Converted<spf::DriveInput> speeds = from_message(*wheels, host_.drive_inputs());
   if (!speeds) return refuse("wheel_speeds", speeds.refusal);
   host_.applied(clock_.seconds(wheels->header.stamp), *speeds);
 }

@@ -100,7 +100,7 @@ void PlannerNode::on_pose(const nav_msgs::Odometry::ConstPtr& odometry) {
 }
 
 void PlannerNode::on_wheels(const spf_empc_msgs::WheelSpeeds::ConstPtr& wheels) {
-  const Converted<Eigen::Vector3d> speeds = from_message(*wheels);
+  const Converted<spf::DriveInput> speeds = from_message(*wheels, host_.drive_inputs());
   const bool usable = speeds && wheels->guard <= spf_empc_msgs::WheelSpeeds::STOPS &&
                       host_.add_command(clock_.seconds(wheels->header.stamp), *speeds, now(),
                                         static_cast<spf::host::GuardAction>(wheels->guard));

@@ -6,7 +6,7 @@
 namespace spf_empc_ros {
 
 SimulatedBases::SimulatedBases(int robots, const spf::RobotParameters& robot, double period)
-    : kinematics_{robot}, period_{period}, bases_(static_cast<std::size_t>(robots)) {}
+    : drive_{robot}, period_{period}, bases_(static_cast<std::size_t>(robots)) {}
 
 void SimulatedBases::command_twist(int robot, const Eigen::Vector3d& twist_body, double time) {
   Base& base = bases_[spf::as_index(robot)];
@@ -14,28 +14,27 @@ void SimulatedBases::command_twist(int robot, const Eigen::Vector3d& twist_body,
     ++base.record.refused;
     return;
   }
-  const Eigen::Vector3d wanted = kinematics_.wheel_speeds(twist_body.head<2>(), twist_body.z());
-  const double fastest = wanted.cwiseAbs().maxCoeff();
-  const double limit = kinematics_.max_wheel_speed();
+  const spf::DriveInput wanted = drive_.input_for(twist_body);
   constexpr double kRounding = 1e-9;
-  if (fastest > limit * (1.0 + kRounding)) ++base.record.cut;
-  take(base, fastest > limit ? Eigen::Vector3d{wanted * (limit / fastest)} : wanted, time);
+  if (drive_.scale_to_limit(wanted) < 1.0 - kRounding) ++base.record.cut;
+  take(base, drive_.saturated(wanted), time);
 }
 
 void SimulatedBases::command_wheels(int robot, const std::vector<double>& wheel_speeds, double time) {
   Base& base = bases_[spf::as_index(robot)];
-  if (wheel_speeds.size() != 3 || !std::all_of(wheel_speeds.begin(), wheel_speeds.end(),
-                                               [](double speed) { return std::isfinite(speed); })) {
+  if (wheel_speeds.size() != static_cast<std::size_t>(drive_.inputs()) ||
+      !std::all_of(wheel_speeds.begin(), wheel_speeds.end(),
+                   [](double speed) { return std::isfinite(speed); })) {
     ++base.record.refused;
     return;
   }
-  const Eigen::Vector3d wanted{wheel_speeds[0], wheel_speeds[1], wheel_speeds[2]};
-  const double limit = kinematics_.max_wheel_speed();
-  if (wanted.cwiseAbs().maxCoeff() > limit) ++base.record.cut;
-  take(base, wanted.cwiseMax(-limit).cwiseMin(limit), time);
+  const spf::DriveInput wanted = Eigen::Map<const Eigen::VectorXd>(wheel_speeds.data(), drive_.inputs());
+  const spf::DriveInput possible = wanted.cwiseMax(drive_.lower()).cwiseMin(drive_.upper());
+  if (possible != wanted) ++base.record.cut;
+  take(base, possible, time);
 }
 
-void SimulatedBases::take(Base& base, const Eigen::Vector3d& wheel_speeds, double time) const {
+void SimulatedBases::take(Base& base, const spf::DriveInput& wheel_speeds, double time) const {
   if (base.commanded) {
     const double gap = time - base.time;
     base.record.longest_gap = std::max(base.record.longest_gap, gap);
@@ -47,9 +46,9 @@ void SimulatedBases::take(Base& base, const Eigen::Vector3d& wheel_speeds, doubl
   base.wheel_speeds = wheel_speeds;
 }
 
-Eigen::Vector3d SimulatedBases::wheels(int robot, double time) const {
+spf::DriveInput SimulatedBases::wheels(int robot, double time) const {
   const Base& base = bases_[spf::as_index(robot)];
-  if (!base.commanded || time - base.time > kWatchdog) return Eigen::Vector3d::Zero();
+  if (!base.commanded || time - base.time > kWatchdog) return drive_.standstill();
   return base.wheel_speeds;
 }
 

@@ -123,7 +123,7 @@ class CompositionTest : public ::testing::Test {
       spf_empc_msgs::WheelSpeeds wheels =
           to_message(share_that_is_told * commands.back(), tracker.tracker().max_wheel_speed());
       wheels.header.stamp = kClock.time(now);
-      planner.add_command(kClock.seconds(wheels.header.stamp), *from_message(wheels), now,
+      planner.add_command(kClock.seconds(wheels.header.stamp), *from_message(wheels, 3), now,
                           tracker.tracker().command().guard.action);
     }
     return commands;

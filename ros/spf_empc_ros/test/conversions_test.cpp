@@ -282,16 +282,17 @@ TEST(Conversions, MapThereAndBackAndRefused) {
   EXPECT_EQ(from_message(grid, "map", {}).refusal, "its frame is 'odom', the fleet's is 'map'");
 }
 
-TEST(Conversions, WheelSpeedsGoThereAndBackAndMustBeThree) {
+TEST(Conversions, WheelSpeedsGoThereAndBackAndMustBeAsManyAsTheDriveHas) {
   const Eigen::Vector3d speeds{0.1, -1.0 / 3.0, 0.7};
   spf_empc_msgs::WheelSpeeds message = to_message(speeds, 1.5);
   EXPECT_EQ(message.limit, 1.5);
-  ASSERT_TRUE(from_message(message));
-  EXPECT_EQ(*from_message(message), speeds);
+  ASSERT_TRUE(from_message(message, 3));
+  EXPECT_EQ(*from_message(message, 3), speeds);
   message.speeds[1] = std::nan("");
-  EXPECT_FALSE(from_message(message));
-  message.speeds.resize(2);
-  EXPECT_EQ(from_message(message).refusal, "speeds has 2 entries, not 3");
+  EXPECT_FALSE(from_message(message, 3));
+  message.speeds = {0.1, 0.2};
+  EXPECT_EQ(from_message(message, 3).refusal, "speeds has 2 entries, not 3");
+  EXPECT_TRUE(from_message(message, 2));
 }
 
 TEST(Display, ShowsPathRobotFieldsAndTracks) {

@@ -18,8 +18,8 @@ TEST(SimulatedBases, TurnAVelocityIntoTheWheelSpeedsThatCauseIt) {
   SimulatedBases bases = two_bases();
   const Eigen::Vector3d twist{0.3, -0.2, 0.4};
   bases.command_twist(1, twist, 0.0);
-  const spf::OmniKinematics kinematics{spf::RobotParameters{}};
-  EXPECT_TRUE(kinematics.twist_body(bases.wheels(1, 0.0)).isApprox(twist, 1e-12));
+  const spf::Drive drive{spf::RobotParameters{}};
+  EXPECT_TRUE(drive.twist_body(bases.wheels(1, 0.0)).isApprox(twist, 1e-12));
   EXPECT_EQ(bases.wheels(0, 0.0), Eigen::Vector3d::Zero());
   EXPECT_EQ(bases.record(1).cut, 0);
 }
@@ -27,9 +27,9 @@ TEST(SimulatedBases, TurnAVelocityIntoTheWheelSpeedsThatCauseIt) {
 TEST(SimulatedBases, SlowDownWhatTheWheelsCannotDoWithoutChangingItsDirection) {
   SimulatedBases bases = two_bases();
   bases.command_twist(0, {30.0, 10.0, 2.0}, 0.0);
-  const spf::OmniKinematics kinematics{spf::RobotParameters{}};
-  EXPECT_NEAR(bases.wheels(0, 0.0).cwiseAbs().maxCoeff(), kinematics.max_wheel_speed(), 1e-12);
-  const Eigen::Vector3d twist = kinematics.twist_body(bases.wheels(0, 0.0));
+  const spf::Drive drive{spf::RobotParameters{}};
+  EXPECT_NEAR(bases.wheels(0, 0.0).cwiseAbs().maxCoeff(), drive.max_wheel_speed(), 1e-12);
+  const Eigen::Vector3d twist = drive.twist_body(bases.wheels(0, 0.0));
   EXPECT_NEAR(twist.y() / twist.x(), 10.0 / 30.0, 1e-12);
   EXPECT_NEAR(twist.z() / twist.x(), 2.0 / 30.0, 1e-12);
   EXPECT_EQ(bases.record(0).cut, 1);
@@ -37,7 +37,7 @@ TEST(SimulatedBases, SlowDownWhatTheWheelsCannotDoWithoutChangingItsDirection) {
 
 TEST(SimulatedBases, ClipEachWheelOfAWheelCommand) {
   SimulatedBases bases = two_bases();
-  const double limit = spf::OmniKinematics{spf::RobotParameters{}}.max_wheel_speed();
+  const double limit = spf::Drive{spf::RobotParameters{}}.max_wheel_speed();
   bases.command_wheels(0, {0.5 * limit, -3.0 * limit, 0.1 * limit}, 0.0);
   EXPECT_TRUE(bases.wheels(0, 0.0).isApprox(Eigen::Vector3d{0.5 * limit, -limit, 0.1 * limit}));
   EXPECT_EQ(bases.record(0).cut, 1);

@@ -92,7 +92,7 @@ TEST(OdometryMessage, CarriesPoseBodyMotionAndNoise) {
   scenario.simulation.pose_noise.heading_sigma = 0.01;
   World world{scenario};
   const Eigen::Vector3d twist{0.3, 0.1, 0.0};
-  world.command(0, world.plant(0).kinematics().wheel_speeds({0.3, 0.1}, 0.0));
+  world.command(0, world.plant(0).drive().input_for({0.3, 0.1, 0.0}));
   for (int i = 0; i < 400; ++i) {
     world.begin_tick();
     world.end_tick();

@@ -70,7 +70,7 @@ FieldPlanner::FieldPlanner(const PlannerParameters& planner, const RobotParamete
                            const FieldParameters& field)
     : planner_{validated(planner)},
       robot_{within_wheel_limits(validated(robot))},
-      kinematics_{robot},
+      drive_{robot},
       clearance_{planner, robot, validated(field)},
       guidance_{planner.safety_distance, planner.least_lateral_share},
       finder_{planner.max_pieces * planner.nodes_per_piece + 1},
@@ -208,7 +208,7 @@ bool FieldPlanner::run_candidate(const PlanRequest& request, Candidate::Kind kin
     const Trajectory trajectory = optimizer_.trajectory();
     const double until = optimizer_.nodes()[problem_.last_moving_node].time;
     last_report_ = clearance_.check(trajectory, {request.time, trajectory.end_time(), until, 1.0, &brake_});
-    const LimitReport limits = check_limits(trajectory, robot_, kinematics_);
+    const LimitReport limits = check_limits(trajectory, robot_, drive_);
     if (last_report_.clear() && within_limits(limits, request.head)) {
       keep_best(request, run, kind, trajectory, result);
       return true;
@@ -305,8 +305,7 @@ void FieldPlanner::add_heading(const PlanRequest& request, Trajectory& trajector
     trajectory.set_heading(stop);
     return;
   }
-  trajectory.set_heading(
-      fitted_heading(trajectory, request.heading, *request.goal_heading, robot_, kinematics_));
+  trajectory.set_heading(fitted_heading(trajectory, request.heading, *request.goal_heading, robot_, drive_));
 }
 
 void FieldPlanner::conclude(const PlanRequest& request, PlanOutcome failure, PlanResult& result) {

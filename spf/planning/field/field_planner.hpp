@@ -15,7 +15,7 @@
 #include "spf/planning/planner.hpp"
 #include "spf/planning/planner_parameters.hpp"
 #include "spf/planning/trajectory_optimizer.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 
 namespace spf {
 
@@ -65,7 +65,7 @@ class FieldPlanner final : public Planner {
 
   PlannerParameters planner_;
   RobotParameters robot_;
-  OmniKinematics kinematics_;
+  Drive drive_;
   ClearanceModel clearance_;
   FieldGuidance guidance_;
   GuidePairFinder finder_;

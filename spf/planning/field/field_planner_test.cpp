@@ -323,13 +323,13 @@ TEST(FieldPlanner, StandsAtTheGoalAndTurnsThere) {
   EXPECT_EQ(result.outcome, PlanOutcome::goal_reached);
   EXPECT_EQ(result.stats.evaluations, 0);
   EXPECT_LT((result.trajectory.position(30.0) - scene.request.goal_world).norm(), 1e-12);
-  EXPECT_NEAR(result.trajectory.heading().state(30.0).heading, 1.0, 1e-9);
+  EXPECT_NEAR(result.trajectory.heading_state(30.0).heading, 1.0, 1e-9);
 }
 
 TEST(FieldPlanner, KeepsTheWheelsWithinTheirLimits) {
   RobotParameters robot;
   robot.max_wheel_speed = 0.7;  // less than max_speed
-  const OmniKinematics kinematics{robot};
+  const Drive drive{robot};
   PlannerScene scene;
   scene.finish({-2.0, 0.0}, {4.0, 1.0});
   scene.request.goal_heading = 2.5;
@@ -340,10 +340,9 @@ TEST(FieldPlanner, KeepsTheWheelsWithinTheirLimits) {
   double fastest = 0.0;
   for (double ahead = 0.0; ahead <= result.trajectory.duration(); ahead += 0.01) {
     const FlatState state = result.trajectory.state(10.0 + ahead);
-    const HeadingState heading = result.trajectory.heading().state(10.0 + ahead);
+    const HeadingState heading = result.trajectory.heading_state(10.0 + ahead);
     const Eigen::Vector3d twist{state.velocity_world.x(), state.velocity_world.y(), heading.yaw_rate};
-    fastest =
-        std::max(fastest, kinematics.wheel_speeds_from_world(twist, heading.heading).cwiseAbs().maxCoeff());
+    fastest = std::max(fastest, drive.input_from_world(twist, heading.heading).cwiseAbs().maxCoeff());
   }
   EXPECT_LE(fastest, robot.max_wheel_speed * 1.001);  // sampled ten times a piece by the planner
   EXPECT_GT(fastest, 0.5);

@@ -9,6 +9,8 @@
 namespace spf {
 namespace {
 
+constexpr double kArrived = 0.3;  // [1] of a step at max_speed
+
 /// Moves a velocity towards a target by at most `change`.
 Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d& target, double change) {
   const Eigen::Vector2d difference = target - velocity;
@@ -40,8 +42,18 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostT
   return direction * (settings.passage != nullptr ? std::min(speed, settings.passage->limit(cost)) : speed);
 }
 
-void roll_out(const MotionPrimitive& primitive, const FlatState& head, const CostToGo& guide,
-              const RollOutSettings& settings, RollOut& result) {
+SteeredState RollOut::state(const Steering& steering, int step) const {
+  const auto at = static_cast<std::size_t>(step);
+  return steering.state_of({position_world[at], velocity_world[at], Eigen::Vector2d::Zero()}, heading[at]);
+}
+
+void roll_out(const MotionPrimitive& primitive, const FlatState& head, const HeadingState& heading,
+              const CostToGo& guide, const RollOutSettings& settings, RollOut& result) {
+  SteeredState steered;
+  if (settings.steering != nullptr) {
+    steered = settings.steering->state_of(head, heading);
+    result.heading[0] = heading;
+  }
   result.steps = settings.steps;
   result.position_world[0] = head.position_world;
   result.velocity_world[0] = head.velocity_world;
@@ -73,13 +85,54 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Cos
           break;
       }
     }
+    if (settings.steering != nullptr) {
+      const Gear gear =
+          k * settings.step >= primitive.until - 1e-9 && primitive.then == MotionPrimitive::Then::goal
+              ? Gear::forward
+              : primitive.gear;
+      const bool there =
+          settings.goal_heading && primitive.then == MotionPrimitive::Then::goal && gear == Gear::forward &&
+          (guide.goal_used() - position).norm() < kArrived * settings.max_speed * settings.step;
+      if (there)
+        settings.steering->turn(*settings.goal_heading, settings.step, steered);
+      else
+        settings.steering->step(target, gear, settings.step, steered);
+      result.position_world[at + 1] = steered.position_world;
+      result.velocity_world[at + 1] = steered.velocity_world();
+      result.heading[at + 1] = {steered.heading, steered.yaw_rate};
+      continue;
+    }
     const Eigen::Vector2d next = approach(velocity, target, change);
     result.velocity_world[at + 1] = next;
     result.position_world[at + 1] = position + 0.5 * settings.step * (velocity + next);
   }
 }
 
+namespace {
+
+constexpr int kBrakingPieces = 8;
+
+/// Some steps to a piece, as many as there is room for.
+Trajectory steered_trajectory(const RollOut& roll_out, double start_time, const RollOutSettings& settings) {
+  Trajectory trajectory{start_time};
+  const int most = Trajectory::kMaxPieces - kBrakingPieces;
+  const int together = std::max(2, (roll_out.steps + most - 1) / most);
+  SteeredState state = roll_out.state(*settings.steering, 0);
+  for (int k = 0; k < roll_out.steps;) {
+    const int next = std::min(k + together, roll_out.steps);
+    const SteeredState then = roll_out.state(*settings.steering, next);
+    Steering::append(state, then, settings.step * (next - k), trajectory);
+    state = then;
+    k = next;
+  }
+  settings.steering->append_braking(state, kBrakingPieces, trajectory);
+  return trajectory;
+}
+
+}  // namespace
+
 Trajectory to_trajectory(const RollOut& roll_out, double start_time, const RollOutSettings& settings) {
+  if (settings.steering != nullptr) return steered_trajectory(roll_out, start_time, settings);
   Trajectory trajectory{start_time};
   int k = 0;
   while (k < roll_out.steps) {

@@ -6,10 +6,12 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <optional>
 
 #include "spf/planning/cost_to_go.hpp"
 #include "spf/planning/space_time/passage_speed.hpp"
 #include "spf/planning/space_time/space_time_risk.hpp"
+#include "spf/planning/steering.hpp"
 #include "spf/trajectory/trajectory.hpp"
 
 namespace spf {
@@ -20,7 +22,8 @@ struct MotionPrimitive {
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s] taken up first
   double until = 0.0;                                        ///< [s] from the start; 0 = straight to `then`
   Then then = Then::goal;
-  double pace = 1.0;  ///< [1] of max_speed, on the way to the goal; below 1 it follows every bend
+  double pace = 1.0;          ///< [1] of max_speed, on the way to the goal; below 1 it follows every bend
+  Gear gear = Gear::forward;  ///< of a robot that steers, until `until`; then forward
 };
 
 /// Positions and velocities at steps of dt; the acceleration is constant within a step.
@@ -28,6 +31,10 @@ struct RollOut {
   int steps = 0;
   std::array<Eigen::Vector2d, SpaceTimeRisk::kMaxSteps + 1> position_world;
   std::array<Eigen::Vector2d, SpaceTimeRisk::kMaxSteps + 1> velocity_world;
+  std::array<HeadingState, SpaceTimeRisk::kMaxSteps + 1> heading;  ///< of a robot that steers
+
+  /// Of a robot that steers.
+  [[nodiscard]] SteeredState state(const Steering& steering, int step) const;
 };
 
 /// Limits and time grid of the roll-outs.
@@ -37,6 +44,8 @@ struct RollOutSettings {
   double step = 0.1;              ///< [s]
   int steps = 30;
   const PassageSpeed* passage = nullptr;  ///< limits the speed on the way to the goal; null: nothing does
+  const Steering* steering = nullptr;     ///< of a robot that cannot move sideways; null: it can
+  std::optional<double> goal_heading;     ///< [rad] to which such a robot turns at the goal
 };
 
 /// Velocity towards the goal from a position: along the guide at max_speed, slower where the robot has to
@@ -46,9 +55,10 @@ struct RollOutSettings {
                                             const RollOutSettings& settings, double pace = 1.0,
                                             double speed_now = 0.0);
 
-/// Rolls a primitive out from a head state (its acceleration is not continued).
-void roll_out(const MotionPrimitive& primitive, const FlatState& head, const CostToGo& guide,
-              const RollOutSettings& settings, RollOut& result);
+/// Rolls a primitive out from a head state (its acceleration is not continued). `heading`: of a robot that
+/// steers, which turns towards each velocity instead of taking it up at once.
+void roll_out(const MotionPrimitive& primitive, const FlatState& head, const HeadingState& heading,
+              const CostToGo& guide, const RollOutSettings& settings, RollOut& result);
 
 /// The roll-out as a trajectory; steps of equal acceleration become one piece. A last piece brakes to rest,
 /// so that a plan which is not renewed ends at rest.

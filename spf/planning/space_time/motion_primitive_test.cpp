@@ -33,7 +33,7 @@ TEST_F(MotionPrimitiveTest, KeepsSpeedAndAccelerationLimits) {
   for (int i = 0; i < 300; ++i) {
     FlatState head;
     head.velocity_world = 0.7 * Eigen::Vector2d{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-    roll_out(random_manoeuvre(random), head, guide, settings, result);
+    roll_out(random_manoeuvre(random), head, HeadingState{}, guide, settings, result);
     const Trajectory trajectory = to_trajectory(result, 5.0, settings);
     EXPECT_LE(trajectory.max_speed(), settings.max_speed + kRollOutRounding);
     EXPECT_LE(trajectory.max_acceleration(), settings.max_acceleration + kRollOutRounding);
@@ -46,7 +46,7 @@ TEST_F(MotionPrimitiveTest, TrajectoryPassesThroughTheSteps) {
     FlatState head;
     head.position_world = random.normal2();
     head.velocity_world = 0.5 * random.normal2().normalized();
-    roll_out(random_manoeuvre(random), head, guide, settings, result);
+    roll_out(random_manoeuvre(random), head, HeadingState{}, guide, settings, result);
     const Trajectory trajectory = to_trajectory(result, 5.0, settings);
     for (int k = 0; k <= result.steps; ++k) {
       const auto at = static_cast<std::size_t>(k);
@@ -57,7 +57,8 @@ TEST_F(MotionPrimitiveTest, TrajectoryPassesThroughTheSteps) {
 }
 
 TEST_F(MotionPrimitiveTest, EndsStanding) {
-  roll_out({{0.0, 1.0}, 9.0, MotionPrimitive::Then::hold}, FlatState{}, guide, settings, result);
+  roll_out({{0.0, 1.0}, 9.0, MotionPrimitive::Then::hold}, FlatState{}, HeadingState{}, guide, settings,
+           result);
   const Trajectory trajectory = to_trajectory(result, 0.0, settings);
   EXPECT_GT(trajectory.state(2.9).velocity_world.norm(), 0.99);
   EXPECT_NEAR(trajectory.end_time(), 4.0, kRollOutRounding);  // 3 s and 1 s to brake
@@ -70,7 +71,7 @@ TEST_F(MotionPrimitiveTest, StopsAtTheGoal) {
     head.position_world = {8.0 - distance, 0.0};
     RollOut now;
     for (int second = 0; second < 2; ++second) {  // 6 s, in two roll-outs
-      roll_out({{}, 0.0, MotionPrimitive::Then::goal}, head, guide, settings, now);
+      roll_out({{}, 0.0, MotionPrimitive::Then::goal}, head, HeadingState{}, guide, settings, now);
       head.position_world = now.position_world[30];
       head.velocity_world = now.velocity_world[30];
       for (int k = 0; k <= 30; ++k)

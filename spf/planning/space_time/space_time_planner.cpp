@@ -55,16 +55,20 @@ constexpr double kCreepSpeed = 0.15;   // [1] of max_speed
 constexpr double kHasteCost = 1e-3;    // [1] of collision_cost, at max_speed where none at all is safe
 // Among many people some risk is always ahead. From this many encounters within the horizon on the price of
 // the risk of what moves falls, to a least price.
-constexpr double kCrowd = 0.285;        // [1]
-constexpr double kCrowdPower = 8.0;     // [1] how suddenly
-constexpr double kCrowdFall = 20.0;     // [1]
-constexpr double kCrowdCost = 17.0;     // [1] of the horizon: a certain contact, where it is most crowded
-constexpr double kCrowdMemory = 1.33;   // [1] of the horizon
-constexpr double kCrowdRange = 2.67;    // [1] of the way at max_speed within the horizon
-constexpr double kLeastSmoothed = 0.2;  // [s] at max_speed: shorter motions are not smoothed
+constexpr double kCrowd = 0.285;         // [1]
+constexpr double kCrowdPower = 8.0;      // [1] how suddenly
+constexpr double kCrowdFall = 20.0;      // [1]
+constexpr double kCrowdCost = 17.0;      // [1] of the horizon: a certain contact, where it is most crowded
+constexpr double kCrowdMemory = 1.33;    // [1] of the horizon
+constexpr double kCrowdRange = 2.67;     // [1] of the way at max_speed within the horizon
+constexpr double kBehind = 0.3;          // [1] cosine: reversing towards such directions is tried, too
+constexpr double kThere = 0.3;           // [1] of the radius from the goal: no need to face it
+constexpr double kTurningCircles = 4.0;  // [1] so far the way on decides how long it takes to turn
+constexpr double kLongTurn = 0.3;        // [s] whose alternatives are looked at
+constexpr double kLeastSmoothed = 0.2;   // [s] at max_speed: shorter motions are not smoothed
 
 RollOutSettings settings_of(const SpaceTimeParameters& parameters, const RobotParameters& robot, int steps) {
-  return {robot.max_speed, robot.max_acceleration, parameters.step, steps, nullptr};
+  return {robot.max_speed, robot.max_acceleration, parameters.step, steps, nullptr, nullptr, std::nullopt};
 }
 
 }  // namespace
@@ -81,6 +85,7 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
       smoother_{parameters_, planner, robot_},
       judge_{validated(planner), robot_} {
   settings_ = settings_of(parameters_, robot_, risk_.steps());
+  if (steers(robot_.drive)) steering_.emplace(robot_);
 }
 
 /// Static surfaces: the probability that the error across the path reaches one. A slow robot tracks its path
@@ -126,6 +131,7 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   score.time = settings_.step * roll_out.steps +
                passage_.left_to_go(guide.cost_to_go(tail)) / settings_.max_speed +
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
+  if (steering_) score.time += turning_time(roll_out.state(*steering_, roll_out.steps), guide);
   // Early progress is better than the same progress planned for later, which could be postponed again and
   // again: a part of the remaining path counts at some instants in between, too.
   double to_go = 0.0;
@@ -167,7 +173,7 @@ void SpaceTimePlanner::take_best(const Score& score, int candidate, bool is_prev
 
 void SpaceTimePlanner::consider(const MotionPrimitive& primitive, const PlanRequest& request,
                                 PlanResult& result, double bonus) {
-  roll_out(primitive, request.head, *request.guide, settings_, trial_);
+  roll_out(primitive, request.head, request.heading, *request.guide, settings_, trial_);
   ++result.stats.primitives;
   const double enough =
       request.keep_candidates ? std::numeric_limits<double>::infinity() : best_score_.total();
@@ -195,6 +201,7 @@ void SpaceTimePlanner::sample(const Trajectory& trajectory, double from, double 
     }
     trial_.position_world[at] = state.position_world + 0.5 * (1.0 + kept) * beyond * state.velocity_world;
     trial_.velocity_world[at] = kept * state.velocity_world;
+    if (steering_) trial_.heading[at] = trajectory.heading_state(std::min(time, drive_end));
   }
 }
 
@@ -219,6 +226,19 @@ void SpaceTimePlanner::consider_previous(const PlanRequest& request, PlanResult&
   take_best(previous, keep_candidate(trial_, Candidate::Kind::previous, previous, request, result), true);
 }
 
+/// How much longer [s] it takes to get on from a state because the robot has to turn.
+double SpaceTimePlanner::turning_time(const SteeredState& state, const CostToGo& guide) const {
+  const double left = guide.cost_to_go(state.position_world);
+  const double goal = (guide.goal_used() - state.position_world).norm();
+  if (goal < kThere * robot_.radius) return 0.0;
+  const bool near = left < (1.0 + kNarrowCost) * goal && goal < kTurningCircles * turning_reach();
+  const Eigen::Vector2d target =
+      near ? guide.goal_used()
+           : Eigen::Vector2d{state.position_world +
+                             kTurningCircles * turning_reach() * guide.direction(state.position_world)};
+  return steering_->turning_time(state, target);
+}
+
 void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult& result) {
   const Eigen::Vector2d ahead = request.guide->direction(request.head.position_world);
   const double base = ahead.squaredNorm() > 0.0 ? std::atan2(ahead.y(), ahead.x()) : 0.0;
@@ -233,6 +253,13 @@ void SpaceTimePlanner::consider_sidesteps(const PlanRequest& request, PlanResult
       consider({velocity, parameters_.long_sidestep, MotionPrimitive::Then::goal}, request, result);
       consider({velocity, always, MotionPrimitive::Then::hold}, request, result);
       consider({velocity, parameters_.short_sidestep, MotionPrimitive::Then::brake}, request, result);
+      if (!steering_ || !steering_->may_reverse() || std::cos(angle - request.heading.heading) > kBehind)
+        continue;
+      for (const double until : {parameters_.short_sidestep, parameters_.long_sidestep})
+        consider({velocity, until, MotionPrimitive::Then::goal, 1.0, Gear::reverse}, request, result);
+      consider({velocity, always, MotionPrimitive::Then::hold, 1.0, Gear::reverse}, request, result);
+      consider({velocity, parameters_.short_sidestep, MotionPrimitive::Then::brake, 1.0, Gear::reverse},
+               request, result);
     }
   }
 }
@@ -301,16 +328,22 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
   settings_.max_speed = sight_.speed();
   passage_.prepare(request);
   settings_.passage = &passage_;
+  settings_.steering = steering_ ? &*steering_ : nullptr;
+  settings_.goal_heading = request.goal_heading;
   update_surface_price(request);
   // 2. The current plan and the direct primitive; these suffice when the direct one is free.
   consider_previous(request, result);
   const MotionPrimitive direct{Eigen::Vector2d::Zero(), 0.0, MotionPrimitive::Then::goal};
-  roll_out(direct, request.head, *request.guide, settings_, trial_);
+  roll_out(direct, request.head, request.heading, *request.guide, settings_, trial_);
   const Score direct_score = score(trial_, request, std::numeric_limits<double>::infinity());
   consider(direct, request, result);
   // 3. Else all primitives.
   const bool in_the_way = passage_.in_the_way(request.guide->cost_to_go(request.head.position_world));
-  if (in_the_way || direct_score.risk > parameters_.cost_threshold)
+  // A car that has to turn may do so forward or backward.
+  const bool manoeuvres =
+      steering_ && !steering_->turns_on_the_spot() &&
+      turning_time(steering_->state_of(request.head, request.heading), *request.guide) > kLongTurn;
+  if (in_the_way || manoeuvres || direct_score.risk > parameters_.cost_threshold)
     consider_all(request, direct_score, result);
   if (request.give_way) result.blocking_peer = request.give_way->peer;
   if (const StandingDisc* blocker = passage_.blocked_by())
@@ -328,7 +361,7 @@ int SpaceTimePlanner::keep_candidate(const RollOut& roll_out, Candidate::Kind ki
 }
 
 bool SpaceTimePlanner::smooth_best(const PlanRequest& request, PlanResult& result) {
-  if (!parameters_.smoothing) return false;
+  if (!parameters_.smoothing || steering_) return false;
   // Standing still is not smoothed: the optimiser would move away from the risk and back again.
   const Eigen::Vector2d& tail = best_.position_world[static_cast<std::size_t>(best_.steps)];
   if ((tail - best_.position_world[0]).norm() < kLeastSmoothed * robot_.max_speed) return false;

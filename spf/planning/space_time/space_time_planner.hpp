@@ -5,6 +5,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "spf/planning/plan_judge.hpp"
 #include "spf/planning/sight_limit.hpp"
@@ -13,6 +14,7 @@
 #include "spf/planning/space_time/space_time_parameters.hpp"
 #include "spf/planning/space_time/space_time_risk.hpp"
 #include "spf/planning/space_time/trajectory_smoother.hpp"
+#include "spf/planning/steering.hpp"
 #include "spf/robot/robot_parameters.hpp"
 
 namespace spf {
@@ -47,6 +49,8 @@ class SpaceTimePlanner final : public Planner {
   [[nodiscard]] double crowd_weight() const;
   void consider_previous(const PlanRequest& request, PlanResult& result);
   void consider_all(const PlanRequest& request, const Score& direct, PlanResult& result);
+  [[nodiscard]] double turning_time(const SteeredState& state, const CostToGo& guide) const;
+  [[nodiscard]] double turning_reach() const { return std::max(robot_.radius, robot_.min_turning_radius); }
   void consider_sidesteps(const PlanRequest& request, PlanResult& result);
   /// Index of the candidate among the result's; -1 when none are kept.
   int keep_candidate(const RollOut& roll_out, Candidate::Kind kind, const Score& score,
@@ -58,7 +62,8 @@ class SpaceTimePlanner final : public Planner {
 
   SpaceTimeParameters parameters_;
   RobotParameters robot_;
-  RollOutSettings settings_;  // its max_speed is that of the plan under way
+  std::optional<Steering> steering_;  // of a robot that cannot move sideways
+  RollOutSettings settings_;          // its max_speed is that of the plan under way
   SpaceTimeRisk risk_;
   EncounterRate encounters_;
   SightLimit sight_;

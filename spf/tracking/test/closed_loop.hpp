@@ -17,9 +17,9 @@ class Tracker {
  public:
   /// Throws std::invalid_argument on parameters out of range.
   Tracker(const TrackerParameters& parameters, const RobotParameters& robot)
-      : kinematics_{robot},
-        estimator_{validated(parameters).observer, kinematics_, reckoned_lag(parameters, robot)},
-        controller_{parameters, kinematics_, reckoned_lag(parameters, robot)} {}
+      : drive_{robot},
+        estimator_{validated(parameters).observer, drive_, reckoned_lag(parameters, robot)},
+        controller_{parameters, drive_, reckoned_lag(parameters, robot)} {}
 
   /// A pose measured at a time [s] (MotionEstimator::observe).
   MeasurementOutcome observe(double time, const Pose2& measured_world) {
@@ -52,7 +52,7 @@ class Tracker {
     return output_ = output;
   }
 
-  OmniKinematics kinematics_;
+  Drive drive_;
   MotionEstimator estimator_;
   TrajectoryController controller_;
   TrackerOutput output_;

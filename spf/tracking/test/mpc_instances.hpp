@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -19,6 +20,8 @@ struct MpcInstance {
 };
 
 struct MpcInstanceOptions {
+  DriveType drive = DriveType::omni;
+  int wheels = 3;
   int horizon = 5;
   double position_error = 0.3;   ///< [m] radius of the disc around the reference
   double heading_error = 0.2;    ///< [rad] to either side
@@ -45,7 +48,7 @@ struct CurvedReference {
   [[nodiscard]] double heading(double t) const {
     return speed * (k0 * t - a / b * (std::cos(b * t + c) - std::cos(c)));
   }
-  [[nodiscard]] Reference sample(double time, double dt, int steps, const OmniKinematics& kinematics) const {
+  [[nodiscard]] Reference sample(double time, double dt, int steps, const Drive& drive) const {
     Reference reference;
     reference.steps = steps;
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
@@ -61,8 +64,7 @@ struct CurvedReference {
     for (std::size_t k = 0; k < static_cast<std::size_t>(steps); ++k) {
       const Eigen::Vector3d twist = (reference.pose[k + 1] - reference.pose[k]) / dt;
       reference.twist[k] = twist;
-      reference.wheel_speeds[k] =
-          kinematics.saturated(kinematics.wheel_speeds_from_world(twist, reference.pose[k].z()));
+      reference.wheel_speeds[k] = drive.saturated(drive.input_from_world(twist, reference.pose[k].z()));
     }
     reference.twist[static_cast<std::size_t>(steps)] = reference.twist[static_cast<std::size_t>(steps - 1)];
     return reference;
@@ -72,25 +74,28 @@ struct CurvedReference {
 inline MpcInstance make_mpc_instance(std::uint64_t seed, const MpcInstanceOptions& options) {
   RandomStream random{mix(seed, 1)};
   MpcInstance instance;
+  instance.robot.drive = options.drive;
+  instance.robot.wheels = options.wheels;
   instance.robot.wheel_arm = options.wheel_arm;
   instance.parameters.horizon = options.horizon;
   instance.parameters.heading_weight = 10.0;
   instance.parameters.effort_weight = 0.05;
   instance.parameters.rate_weight = options.rate_weight;
-  const OmniKinematics kinematics{instance.robot};
+  const Drive drive{instance.robot};
   const CurvedReference curve{random};
   MpcProblem& problem = instance.problem;
-  problem.reference =
-      curve.sample(random.uniform(0.0, 10.0), instance.parameters.dt, options.horizon, kinematics);
+  problem.reference = curve.sample(random.uniform(0.0, 10.0), instance.parameters.dt, options.horizon, drive);
 
   const double angle = random.uniform(-3.14, 3.14);
   const double distance = options.position_error * std::sqrt(random.uniform());
   problem.initial_pose = problem.reference.pose[0];
   problem.initial_pose += Eigen::Vector3d{distance * std::cos(angle), distance * std::sin(angle),
                                           random.uniform(-options.heading_error, options.heading_error)};
-  for (int i = 0; i < 3; ++i) {
-    problem.disturbance[i] = random.uniform(-options.disturbance, options.disturbance);
-    problem.previous_wheel_speeds[i] = random.uniform(-1.0, 1.0);
+  problem.previous_wheel_speeds = drive.standstill();
+  for (int i = 0; i < std::max(3, drive.inputs()); ++i) {
+    if (i < 3) problem.disturbance[i] = random.uniform(-options.disturbance, options.disturbance);
+    if (i < drive.inputs())
+      problem.previous_wheel_speeds[i] = random.uniform(drive.lower()[i], drive.upper()[i]) / 1.5;
   }
   if (random.uniform() < options.wall_share) {
     const double ahead = random.uniform(options.wall_ahead_low, options.wall_ahead_high);

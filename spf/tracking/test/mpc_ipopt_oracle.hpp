@@ -6,6 +6,7 @@
 #include <IpTNLP.hpp>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "spf/tracking/mpc.hpp"
@@ -19,15 +20,15 @@ class MpcIpoptProblem : public Ipopt::TNLP {
   using Index = Ipopt::Index;
   using Number = Ipopt::Number;
 
-  MpcIpoptProblem(const MpcParameters& parameters, const OmniKinematics& kinematics)
-      : parameters_{parameters}, kinematics_{kinematics}, steps_{parameters.horizon} {}
+  MpcIpoptProblem(const MpcParameters& parameters, const Drive& drive)
+      : parameters_{parameters}, drive_{drive}, steps_{parameters.horizon}, inputs_count_{drive.inputs()} {}
 
   void set_problem(const MpcProblem& problem) { problem_ = problem; }
   [[nodiscard]] double cost() const { return cost_; }
-  [[nodiscard]] const InputSequence<3>& wheel_speeds() const { return inputs_; }
+  [[nodiscard]] const DriveInputs& wheel_speeds() const { return inputs_; }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian, IndexStyleEnum& style) override {
-    n = 8 * steps_;
+    n = (5 + inputs_count_) * steps_;
     m = 7 * steps_;
     nnz_jac = 0;
     each_jacobian([&](Index, Index, double) { ++nnz_jac; }, nullptr);
@@ -43,11 +44,11 @@ class MpcIpoptProblem : public Ipopt::TNLP {
       x_u[i] = 2e19;
     }
     for (int k = 0; k < steps_; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        x_l[input(k, i)] = -kinematics_.max_wheel_speed();
-        x_u[input(k, i)] = kinematics_.max_wheel_speed();
-        g_l[3 * k + i] = g_u[3 * k + i] = 0.0;
+      for (int i = 0; i < inputs_count_; ++i) {
+        x_l[input(k, i)] = drive_.lower()[i];
+        x_u[input(k, i)] = drive_.upper()[i];
       }
+      for (int i = 0; i < 3; ++i) g_l[3 * k + i] = g_u[3 * k + i] = 0.0;
       const double lower[2] = {parameters_.x_lower, parameters_.y_lower};
       const double upper[2] = {parameters_.x_upper, parameters_.y_upper};
       for (int i = 0; i < 2; ++i) {
@@ -63,10 +64,10 @@ class MpcIpoptProblem : public Ipopt::TNLP {
 
   bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index, bool, Number*) override {
     for (int k = 0; k < steps_; ++k) {
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < 3; ++i)
         x[state(k + 1, i)] = problem_.reference.pose[static_cast<std::size_t>(k + 1)][i];
+      for (int i = 0; i < inputs_count_; ++i)
         x[input(k, i)] = problem_.reference.wheel_speeds[static_cast<std::size_t>(k)][i];
-      }
       for (int i = 0; i < 2; ++i) x[slack(k, i)] = 0.0;
     }
     return true;
@@ -75,9 +76,9 @@ class MpcIpoptProblem : public Ipopt::TNLP {
   bool eval_f(Index, const Number* x, bool, Number& f) override {
     f = 0.0;
     for (int k = 0; k < steps_; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        f += weight(i) * square(state_error(x, k, i)) +
-             parameters_.effort_weight * square(input_error(x, k, i)) +
+      for (int i = 0; i < 3; ++i) f += weight(i) * square(state_error(x, k, i));
+      for (int i = 0; i < inputs_count_; ++i) {
+        f += parameters_.effort_weight * square(input_error(x, k, i)) +
              parameters_.rate_weight * square(change(x, k, i));
       }
       for (int i = 0; i < 2; ++i) f += parameters_.slack_weight * square(x[slack(k, i)]);
@@ -88,8 +89,8 @@ class MpcIpoptProblem : public Ipopt::TNLP {
   bool eval_grad_f(Index n, const Number* x, bool, Number* gradient) override {
     for (Index i = 0; i < n; ++i) gradient[i] = 0.0;
     for (int k = 0; k < steps_; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        gradient[state(k + 1, i)] += 2.0 * weight(i) * state_error(x, k, i);
+      for (int i = 0; i < 3; ++i) gradient[state(k + 1, i)] += 2.0 * weight(i) * state_error(x, k, i);
+      for (int i = 0; i < inputs_count_; ++i) {
         gradient[input(k, i)] += 2.0 * parameters_.effort_weight * input_error(x, k, i);
         gradient[input(k, i)] += 2.0 * parameters_.rate_weight * change(x, k, i);
         if (k > 0) gradient[input(k - 1, i)] -= 2.0 * parameters_.rate_weight * change(x, k, i);
@@ -155,15 +156,18 @@ class MpcIpoptProblem : public Ipopt::TNLP {
                          const Number*, const Number*, Number f, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
     cost_ = f;
-    for (int k = 0; k < steps_; ++k)
-      for (int i = 0; i < 3; ++i) inputs_[static_cast<std::size_t>(k)][i] = x[input(k, i)];
+    for (int k = 0; k < steps_; ++k) {
+      DriveInput& inputs = inputs_[static_cast<std::size_t>(k)];
+      inputs.resize(inputs_count_);
+      for (int i = 0; i < inputs_count_; ++i) inputs[i] = x[input(k, i)];
+    }
   }
 
  private:
   static double square(double value) { return value * value; }
   static Index state(int k, int i) { return 3 * (k - 1) + i; }  // k >= 1
-  [[nodiscard]] Index input(int k, int i) const { return 3 * steps_ + 3 * k + i; }
-  [[nodiscard]] Index slack(int k, int i) const { return 6 * steps_ + 2 * k + i; }
+  [[nodiscard]] Index input(int k, int i) const { return 3 * steps_ + inputs_count_ * k + i; }
+  [[nodiscard]] Index slack(int k, int i) const { return (3 + inputs_count_) * steps_ + 2 * k + i; }
   [[nodiscard]] Index bound_row(int k, int i) const { return 3 * steps_ + 4 * k + 2 * i; }
   [[nodiscard]] double weight(int i) const {
     return i < 2 ? parameters_.position_weight : parameters_.heading_weight;
@@ -180,16 +184,27 @@ class MpcIpoptProblem : public Ipopt::TNLP {
   [[nodiscard]] double change(const Number* x, int k, int i) const {
     return x[input(k, i)] - (k > 0 ? x[input(k - 1, i)] : problem_.previous_wheel_speeds[i]);
   }
+  [[nodiscard]] DriveInput inputs_of(const Number* x, int k) const {
+    return x != nullptr ? DriveInput{Eigen::Map<const DriveInput>(x + input(k, 0), inputs_count_)}
+                        : drive_.standstill();
+  }
   [[nodiscard]] Eigen::Vector3d body_twist(const Number* x, int k) const {
-    return kinematics_.twist_body({x[input(k, 0)], x[input(k, 1)], x[input(k, 2)]});
+    return drive_.twist_body(inputs_of(x, k));
+  }
+  /// Second derivatives of a car's yaw rate, v tan(angle) / wheel base, by speed and angle, and by angle
+  /// twice.
+  [[nodiscard]] std::pair<double, double> bending(const DriveInput& input) const {
+    const double by_angle = drive_.jacobian(input)(2, 1);
+    const double by_both = drive_.jacobian(Eigen::Vector2d{1.0, input[1]})(2, 1);
+    return {by_both, 2.0 * std::tan(input[1]) * by_angle};
   }
 
   /// Calls entry(row, column, derivative); x may be null when only the structure is wanted.
   template <class Entry>
   void each_jacobian(Entry&& entry, const Number* x) const {
     const double dt = parameters_.dt;
-    const Eigen::Matrix3d& inverse = kinematics_.body_from_wheel();
     for (int k = 0; k < steps_; ++k) {
+      const DriveJacobian by_input = drive_.jacobian(inputs_of(x, k));
       const double theta = x != nullptr ? value(x, k, 2) : 0.0;
       const Eigen::Vector3d v = x != nullptr ? body_twist(x, k) : Eigen::Vector3d{0.0, 0.0, 0.0};
       const double c = std::cos(theta);
@@ -202,10 +217,10 @@ class MpcIpoptProblem : public Ipopt::TNLP {
         entry(3 * k, state(k, 2), dt * (s * v[0] + c * v[1]));
         entry(3 * k + 1, state(k, 2), -dt * (c * v[0] - s * v[1]));
       }
-      for (int j = 0; j < 3; ++j) {
-        entry(3 * k, input(k, j), -dt * (c * inverse(0, j) - s * inverse(1, j)));
-        entry(3 * k + 1, input(k, j), -dt * (s * inverse(0, j) + c * inverse(1, j)));
-        entry(3 * k + 2, input(k, j), -dt * inverse(2, j));
+      for (int j = 0; j < inputs_count_; ++j) {
+        entry(3 * k, input(k, j), -dt * (c * by_input(0, j) - s * by_input(1, j)));
+        entry(3 * k + 1, input(k, j), -dt * (s * by_input(0, j) + c * by_input(1, j)));
+        entry(3 * k + 2, input(k, j), -dt * by_input(2, j));
       }
       for (int i = 0; i < 2; ++i) {
         entry(bound_row(k, i), state(k + 1, i), 1.0);
@@ -221,16 +236,22 @@ class MpcIpoptProblem : public Ipopt::TNLP {
   void each_hessian(Entry&& entry, const Number* x, double factor, const Number* multipliers) const {
     const double dt = parameters_.dt;
     const double rate = parameters_.rate_weight;
-    const Eigen::Matrix3d& inverse = kinematics_.body_from_wheel();
     for (int k = 0; k < steps_; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        entry(state(k + 1, i), state(k + 1, i), 2.0 * factor * weight(i));
+      for (int i = 0; i < 3; ++i) entry(state(k + 1, i), state(k + 1, i), 2.0 * factor * weight(i));
+      for (int i = 0; i < inputs_count_; ++i) {
         const double ends = k + 1 < steps_ ? 2.0 : 1.0;
         entry(input(k, i), input(k, i), 2.0 * factor * (parameters_.effort_weight + ends * rate));
         if (k > 0) entry(input(k, i), input(k - 1, i), -2.0 * factor * rate);
       }
       for (int i = 0; i < 2; ++i) entry(slack(k, i), slack(k, i), 2.0 * factor * parameters_.slack_weight);
+      if (drive_.type() == DriveType::car) {
+        const auto [by_both, by_angle_twice] = bending(inputs_of(x, k));
+        const double m2 = multipliers != nullptr ? multipliers[3 * k + 2] : 0.0;
+        entry(input(k, 1), input(k, 0), -dt * m2 * by_both);
+        entry(input(k, 1), input(k, 1), -dt * m2 * by_angle_twice);
+      }
       if (k == 0) continue;
+      const DriveJacobian by_input = drive_.jacobian(inputs_of(x, k));
       const double theta = x != nullptr ? value(x, k, 2) : 0.0;
       const Eigen::Vector3d v = x != nullptr ? body_twist(x, k) : Eigen::Vector3d{0.0, 0.0, 0.0};
       const double c = std::cos(theta);
@@ -238,19 +259,20 @@ class MpcIpoptProblem : public Ipopt::TNLP {
       const double m0 = multipliers != nullptr ? multipliers[3 * k] : 0.0;
       const double m1 = multipliers != nullptr ? multipliers[3 * k + 1] : 0.0;
       entry(state(k, 2), state(k, 2), dt * (m0 * (c * v[0] - s * v[1]) + m1 * (s * v[0] + c * v[1])));
-      for (int j = 0; j < 3; ++j)
+      for (int j = 0; j < inputs_count_; ++j)
         entry(input(k, j), state(k, 2),
-              dt * (m0 * (s * inverse(0, j) + c * inverse(1, j)) -
-                    m1 * (c * inverse(0, j) - s * inverse(1, j))));
+              dt * (m0 * (s * by_input(0, j) + c * by_input(1, j)) -
+                    m1 * (c * by_input(0, j) - s * by_input(1, j))));
     }
   }
 
   MpcParameters parameters_;
-  OmniKinematics kinematics_;
+  Drive drive_;
   int steps_;
+  int inputs_count_;
   MpcProblem problem_;
   double cost_ = 0.0;
-  InputSequence<3> inputs_;
+  DriveInputs inputs_;
 };
 
 /// An application with tight tolerances and without output; null when it cannot be initialised.

@@ -51,8 +51,9 @@ struct StampedTrajectory {
                                                         const ClockEdge& clock, const std::string& frame);
 
 // ---- what the wheels are told: rim speeds [m/s], wheel 1 first
-[[nodiscard]] spf_empc_msgs::WheelSpeeds to_message(const Eigen::Vector3d& wheel_speeds, double limit);
-[[nodiscard]] Converted<Eigen::Vector3d> from_message(const spf_empc_msgs::WheelSpeeds& message);
+[[nodiscard]] spf_empc_msgs::WheelSpeeds to_message(const spf::DriveInput& wheel_speeds, double limit);
+/// Refused unless there is one for each of the drive's `inputs`.
+[[nodiscard]] Converted<spf::DriveInput> from_message(const spf_empc_msgs::WheelSpeeds& message, int inputs);
 
 // ---- what is sensed. Positions are moved by `fleet_from_message`, the pose of the message's frame in the
 // fleet's.

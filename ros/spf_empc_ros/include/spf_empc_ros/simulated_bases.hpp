@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "spf/math/index.hpp"
-#include "spf/robot/omni_kinematics.hpp"
+#include "spf/robot/drive.hpp"
 
 namespace spf_empc_ros {
 
@@ -35,19 +35,19 @@ class SimulatedBases {
   void command_wheels(int robot, const std::vector<double>& wheel_speeds, double time);
 
   /// What the motors are told at a time [m/s].
-  [[nodiscard]] Eigen::Vector3d wheels(int robot, double time) const;
+  [[nodiscard]] spf::DriveInput wheels(int robot, double time) const;
   [[nodiscard]] const CommandRecord& record(int robot) const { return bases_[spf::as_index(robot)].record; }
 
  private:
   struct Base {
-    Eigen::Vector3d wheel_speeds = Eigen::Vector3d::Zero();  // [m/s]
-    double time = 0.0;                                       // [s] of the last command
+    spf::DriveInput wheel_speeds;
+    double time = 0.0;  // [s] of the last command
     bool commanded = false;
     CommandRecord record;
   };
-  void take(Base& base, const Eigen::Vector3d& wheel_speeds, double time) const;
+  void take(Base& base, const spf::DriveInput& wheel_speeds, double time) const;
 
-  spf::OmniKinematics kinematics_;
+  spf::Drive drive_;
   double period_;  // [s]
   std::vector<Base> bases_;
 };
