@@ -64,8 +64,9 @@ std::vector<StoredPicture> pictures_of(const Campaign& campaign, const Cell& cel
   options.record = true;
   const FinishedTrial recorded = run_trial(cell, trial, options);
   const std::string name = stem_of(cell.key) + "_trial" + std::to_string(trial);
+  const int rims = Drive{recorded.recording->scenario.robot}.rims();
   if (shows(campaign, CampaignFigure::wheels))
-    for (int wheel = 0; wheel < Drive{recorded.recording->scenario.robot}.rims(); ++wheel)
+    for (int wheel = 0; wheel < rims; ++wheel)
       pictures.push_back({"wheels_" + name + "_wheel" + std::to_string(wheel + 1) + ".svg",
                           wheel_chart(*recorded.recording, cell.key.method, wheel)});
   if (!shows(campaign, CampaignFigure::scenes)) return pictures;

@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, EveryDriveSlow,
                                          robot_with(DriveType::differential), robot_with(DriveType::car)),
                          [](const auto& robot) { return std::string{enum_name(robot.param.drive)}; });
 
-// Of 60 trials the default method succeeds in all with each of these, in 1.07 to 1.09 times the free time.
+// Differential robots and cars reached them in 60 of 60 such trials, in 1.07 and 1.09 times the free time.
 TEST_P(EveryDriveSlow, ReachesItsGoalsAmongMovingObstacles) {
   for (int trial = 10000; trial < 10003; ++trial) {
     const TrialResult result = drive_t2(GetParam(), kDefaultMethod, trial);

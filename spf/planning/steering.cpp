@@ -22,6 +22,15 @@ double approach(double value, double target, double change) {
   return value + std::clamp(target - value, -change, change);
 }
 
+/// The yaw rate [rad/s] at which a robot that is off by an angle [rad] can still stop turning at its aim.
+double rate_towards(double error, double max_yaw_acceleration, double dt) {
+  const double braking = max_yaw_acceleration * dt;
+  const double fastest =
+      std::sqrt(2.0 * kSpare * max_yaw_acceleration * std::fabs(error) + 0.25 * braking * braking) -
+      0.5 * braking;
+  return std::copysign(std::min(fastest, std::fabs(error) / dt), error);
+}
+
 }  // namespace
 
 Steering::Steering(const RobotParameters& robot)
@@ -86,14 +95,9 @@ void Steering::step(const Eigen::Vector2d& velocity_world, Gear gear, double dt,
   const double sign = gear == Gear::reverse && may_reverse_ ? -1.0 : 1.0;
   const double aim = std::atan2(sign * velocity_world.y(), sign * velocity_world.x());
   const double error = angle_difference(aim, state.heading);
-  // As fast as it can still stop turning at the aim.
-  const double braking = max_yaw_acceleration_ * dt;
-  const double fastest =
-      std::sqrt(2.0 * kSpare * max_yaw_acceleration_ * std::fabs(error) + 0.25 * braking * braking) -
-      0.5 * braking;
-  const double rate = std::copysign(std::min(fastest, std::fabs(error) / dt), error);
   const double pace = radius_ > 0.0 ? std::max(kCarPace, std::cos(error)) : std::max(0.0, std::cos(error));
-  change(sign * std::min(wanted, max_speed_) * pace, rate, dt, state);
+  change(sign * std::min(wanted, max_speed_) * pace, rate_towards(error, max_yaw_acceleration_, dt), dt,
+         state);
 }
 
 void Steering::turn(double heading, double dt, SteeredState& state) const {
@@ -102,11 +106,7 @@ void Steering::turn(double heading, double dt, SteeredState& state) const {
     return;
   }
   const double error = angle_difference(heading, state.heading);
-  const double braking = max_yaw_acceleration_ * dt;
-  const double fastest =
-      std::sqrt(2.0 * kSpare * max_yaw_acceleration_ * std::fabs(error) + 0.25 * braking * braking) -
-      0.5 * braking;
-  change(0.0, std::copysign(std::min(fastest, std::fabs(error) / dt), error), dt, state);
+  change(0.0, rate_towards(error, max_yaw_acceleration_, dt), dt, state);
 }
 
 /// Of the shortest path that begins along the x axis, turns on a circle and goes on straight to a position.
@@ -135,7 +135,6 @@ double Steering::turning_time(const SteeredState& state, const Eigen::Vector2d& 
   const Eigen::Vector2d target{ahead.dot(offset), ahead.x() * offset.y() - ahead.y() * offset.x()};
   if (turns_on_the_spot()) {
     const double error = std::fabs(std::atan2(target.y(), target.x()));
-    // A robot that moves turns on its way.
     return error / (kSpare * max_yaw_rate_);
   }
   double extra = loop_length(target) - distance;
