@@ -3,14 +3,11 @@
 and all tests compile a room in batches of sources, in which such names meet; which ones meet changes with every new file.
 
 Needs Universal Ctags; exit status 77 without it, 1 where SPF_REQUIRE_TOOLS is 1."""
-import json
-import shutil
-import subprocess
 import sys
 from collections import defaultdict
 from pathlib import Path
 
-from check_limits import files_of, no_tool
+from check_limits import files_of, main, tags_of
 
 ROOMS_WITHIN = ("spf", "apps")  # folders whose folders are rooms; elsewhere each folder is one
 NOT_BATCHED = ("bench", "fuzz", "examples", "ros")
@@ -25,18 +22,11 @@ def batch_of(path):
     return room, path.endswith("_test.cpp")
 
 
-def tags_of(root, names):
-    command = ["ctags", "-f", "-", "--output-format=json", "--language-force=C++", "--kinds-C++=cfsuveg",
-               "--fields=+neKZS", *names]
-    found = subprocess.run(command, cwd=root, text=True, capture_output=True, check=True).stdout
-    return [json.loads(line) for line in found.splitlines()]
-
-
 def check(root):
     """One sentence for each name that two sources give."""
     names = [name for name in files_of(root) if name.endswith(".cpp") and batch_of(name)]
     places = defaultdict(dict)
-    for tag in tags_of(root, names) if names else []:
+    for tag in tags_of(root, names, "cfsuveg") if names else []:
         if not tag.get("scope", "").rpartition("::")[2].startswith("__anon") or tag.get("scopeKind") != "namespace":
             continue
         # Functions may share a name as long as their parameters differ.
@@ -48,17 +38,5 @@ def check(root):
             for ((room, test), _, (name, _)), found in sorted(places.items()) if len(found) > 1]
 
 
-def main():
-    if shutil.which("ctags") is None:
-        print("ctags is not installed (script/setup check)", file=sys.stderr)
-        return no_tool()
-    breaches = check(Path(__file__).resolve().parent.parent)
-    for breach in breaches:
-        print(breach, file=sys.stderr)
-    if not breaches:
-        print("names: none is given twice in a room")
-    return 1 if breaches else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(check, "names: none is given twice in a room"))

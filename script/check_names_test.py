@@ -9,6 +9,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing is left beside the sources
 
+import check_limits
 import check_names
 
 CONSTANT = "namespace spf {\nnamespace {\nconstexpr double kLimit = 1.0;\n}\n}\n"
@@ -50,5 +51,5 @@ class Names(unittest.TestCase):
 if __name__ == "__main__":
     if shutil.which("ctags") is None:
         print("ctags is not installed (script/setup check)", file=sys.stderr)
-        sys.exit(check_names.no_tool())
+        sys.exit(check_limits.no_tool())
     unittest.main()

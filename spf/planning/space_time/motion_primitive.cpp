@@ -69,7 +69,8 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Hea
     const auto at = static_cast<std::size_t>(k);
     const Eigen::Vector2d position = result.position_world[at];
     const Eigen::Vector2d velocity = result.velocity_world[at];
-    if (k * settings.step >= primitive.until - 1e-9) {
+    const bool goes_on = k * settings.step >= primitive.until - 1e-9;
+    if (goes_on) {
       const bool entering = first || k == 0;
       first = false;
       switch (primitive.then) {
@@ -86,17 +87,12 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Hea
       }
     }
     if (settings.steering != nullptr) {
-      const Gear gear =
-          k * settings.step >= primitive.until - 1e-9 && primitive.then == MotionPrimitive::Then::goal
-              ? Gear::forward
-              : primitive.gear;
-      const bool there =
-          settings.goal_heading && primitive.then == MotionPrimitive::Then::goal && gear == Gear::forward &&
-          (guide.goal_used() - position).norm() < kArrived * settings.max_speed * settings.step;
-      if (there)
+      const bool to_goal = goes_on && primitive.then == MotionPrimitive::Then::goal;
+      const double gap = (guide.goal_used() - position).norm();
+      if (to_goal && settings.goal_heading && gap < kArrived * settings.max_speed * settings.step)
         settings.steering->turn(*settings.goal_heading, settings.step, steered);
       else
-        settings.steering->step(target, gear, settings.step, steered);
+        settings.steering->step(target, to_goal ? Gear::forward : primitive.gear, settings.step, steered);
       result.position_world[at + 1] = steered.position_world;
       result.velocity_world[at + 1] = steered.velocity_world();
       result.heading[at + 1] = {steered.heading, steered.yaw_rate};
