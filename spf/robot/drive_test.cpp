@@ -112,7 +112,7 @@ TEST(Drive, SlowsDownOnItsPathAtTheLimits) {
     DriveInput bad = fast;
     bad[0] = std::nan("");
     EXPECT_EQ(drive.saturated(bad), drive.standstill());
-    EXPECT_EQ(drive.saturated(DriveInput::Zero(7)), drive.standstill());
+    EXPECT_EQ(drive.saturated(DriveInput::Zero(drive.inputs() - 1)), drive.standstill());
   }
 }
 
