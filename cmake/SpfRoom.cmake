@@ -66,14 +66,29 @@ function(spf_room NAME)
       set_tests_properties(${suite} PROPERTIES LABELS ${NAME} TIMEOUT 900 COST 100)
       list(APPEND together "${suite}.*")
     endforeach()
+    set(one_by_one "*")
+    if(SPF_SANITIZE AND NOT SPF_SANITIZE STREQUAL "thread")
+      spf_test_in_shards(${NAME} "${together}")
+      set(one_by_one "*Slow.*:*Slow/*")
+    endif()
     list(JOIN together ":" together)
-    gtest_discover_tests(${target}_tests DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES TEST_FILTER "-${together}"
+    gtest_discover_tests(${target}_tests DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES TEST_FILTER "${one_by_one}-${together}"
       PROPERTIES LABELS ${NAME} TIMEOUT 900)
     spf_label_by_suite(${NAME} ${target}_tests)
     if(SPF_SANITIZE STREQUAL "thread")
       add_dependencies(spf_threads_tests ${target}_tests)
     endif()
   endif()
+endfunction()
+
+# A room's tests but ...Slow and EXCEPT, in four processes: under the address sanitizer to start a process costs more than most tests.
+function(spf_test_in_shards NAME EXCEPT)
+  list(JOIN EXCEPT ":" except)
+  foreach(shard RANGE 3)
+    add_test(NAME ${NAME}.shard_${shard} COMMAND spf_${NAME}_tests --gtest_brief=1 "--gtest_filter=-*Slow.*:*Slow/*:${except}")
+    set_tests_properties(${NAME}.shard_${shard} PROPERTIES LABELS ${NAME} TIMEOUT 1800 COST 50
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=4;GTEST_SHARD_INDEX=${shard}")
+  endforeach()
 endfunction()
 
 # Of these sources, those with suites ...Threads: nothing else is worth the thread sanitizer.
@@ -111,7 +126,10 @@ function(spf_compile_options TARGET STANDARD)
   target_compile_options(${TARGET} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off
     $<$<BOOL:${SPF_WARNINGS_AS_ERRORS}>:-Werror>)
   if(SPF_SANITIZE)
-    target_compile_options(${TARGET} PRIVATE -fsanitize=${SPF_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    # Null and misaligned pointers, half of what the sanitizers cost the compiler, are found without: the address sanitizer stops
+    # at the first, nothing here casts pointers to make the second, and Eigen asserts that its own are aligned.
+    target_compile_options(${TARGET} PRIVATE -fsanitize=${SPF_SANITIZE} -fno-sanitize=null,alignment -fno-omit-frame-pointer
+      -fno-sanitize-recover=all)
     target_link_options(${TARGET} PUBLIC -fsanitize=${SPF_SANITIZE})
   endif()
 endfunction()
