@@ -20,13 +20,17 @@ bool shows(const Campaign& campaign, CampaignFigure figure) {
 
 /// Speed of one wheel of every robot.
 std::string wheel_chart(const sim::Recording& recording, const std::string& method, int wheel) {
-  const double limit = recording.scenario.robot.max_wheel_speed;
+  const sim::Scenario& scenario = recording.scenario;
+  double limit = 0.0;  // of the fastest wheel
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+    limit = std::max(limit, scenario.robot_of(i).max_wheel_speed);
   LineChart chart;
   chart.x.label = "time [s]";
   chart.y.label = "speed [m/s]";
   chart.limits = {{"limit", limit}, {"", -limit}};
   double most = 0.0;
-  for (std::size_t i = 0; i < recording.scenario.robots.size(); ++i) {
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    if (wheel >= Drive{scenario.robot_of(i)}.rims()) continue;
     ChartSeries series{"robot " + std::to_string(i), static_cast<int>(i), {}, SeriesLook::line};
     for (const sim::RecordedFrame& frame : recording.frames) {
       const double speed = frame.robots[i].wheel_speeds[wheel];
@@ -64,7 +68,10 @@ std::vector<StoredPicture> pictures_of(const Campaign& campaign, const Cell& cel
   options.record = true;
   const FinishedTrial recorded = run_trial(cell, trial, options);
   const std::string name = stem_of(cell.key) + "_trial" + std::to_string(trial);
-  const int rims = Drive{recorded.recording->scenario.robot}.rims();
+  const sim::Scenario& scenario = recorded.recording->scenario;
+  int rims = 0;  // of the robot that has the most
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+    rims = std::max(rims, Drive{scenario.robot_of(i)}.rims());
   if (shows(campaign, CampaignFigure::wheels))
     for (int wheel = 0; wheel < rims; ++wheel)
       pictures.push_back({"wheels_" + name + "_wheel" + std::to_string(wheel + 1) + ".svg",

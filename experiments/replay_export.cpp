@@ -47,7 +47,7 @@ ReplayBox bounds_of(const sim::Scenario& scenario) {
     for (const Eigen::Vector2d& waypoint : person.waypoints) bounds.extend(waypoint);
   for (const ObstacleState& disc : scenario.moving) bounds.extend(disc.position_world);
   for (const sim::CrowdSample& sample : scenario.crowd) bounds.extend(sample.position_world);
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1.0 + scenario.robot.radius);
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(1.0 + scenario.largest_radius());
   return {point(bounds.min() - margin), point(bounds.max() + margin)};
 }
 
@@ -239,10 +239,11 @@ void describe_robots(ReplayData& data, const sim::Recording& recording) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     ReplayRobot robot;
     robot.id = static_cast<int>(i);
-    robot.radius = scenario.robot.radius;
+    const RobotParameters& parameters = scenario.robot_of(i);
+    robot.radius = parameters.radius;
     robot.goal = point(scenario.robots[i].goal_world);
-    robot.wheels = static_cast<std::size_t>(Drive{scenario.robot}.rims());
-    robot.wheel_speed_limit = scenario.robot.max_wheel_speed;
+    robot.wheels = static_cast<std::size_t>(Drive{parameters}.rims());
+    robot.wheel_speed_limit = parameters.max_wheel_speed;
     robot.sensing_range = scenario.simulation.sensing.range;
     robot.cell_size = recording.map_frame.resolution;
     robot.cell_origin = point(recording.map_frame.origin_world - half_cell);  // a cell is centred on its node

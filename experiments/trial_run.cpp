@@ -98,7 +98,7 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
   record.cause = watch.cause_of(result);
   if (cell.config.simulation.trial.tracking ==
       sim::TrackingMode::full)  // otherwise there are no wheel speeds
-    record.wheel_share = watch.largest_wheel_speed() / cell.config.robot.max_wheel_speed;
+    record.wheel_share = watch.largest_wheel_share();
   record.digest = hexadecimal(result.digest);
   for (const float duration : result.plan_ms) record.plan_time.add(1e-3 * static_cast<double>(duration));
   for (const float duration : result.control_us)
@@ -126,7 +126,7 @@ FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options
     simulation.for_each = [&robots](std::size_t count, const std::function<void(std::size_t)>& job) {
       robots.for_each(count, job);
     };
-  sim::TrialResult result = sim::Simulation{scenario, agent_parameters(cell.config), simulation}.run();
+  sim::TrialResult result = sim::Simulation{scenario, agents_of(cell.config), simulation}.run();
   result.trial = trial;
   finished.record = record_of(cell, result, watch);
   finished.recording = result.recording;

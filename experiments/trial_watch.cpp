@@ -5,15 +5,19 @@
 namespace spf {
 
 TrialWatch::TrialWatch(const sim::Scenario& scenario) : robots_(scenario.robots.size()) {
-  for (Robot& robot : robots_) robot.rims = Drive{scenario.robot}.rims();
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    robots_[i].rims = Drive{scenario.robot_of(i)}.rims();
+    robots_[i].wheel_limit = scenario.robot_of(i).max_wheel_speed;
+  }
 }
 
 void TrialWatch::frame(const sim::TrialFrame& frame) {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     robots_[i].status = (*frame.hosts)[i].agent().status();
-    for (const DriveInput* input : {&(*frame.wheel_speeds)[i], &(*frame.wheel_commands)[i]})
-      largest_wheel_speed_ =
-          std::max(largest_wheel_speed_, input->head(robots_[i].rims).lpNorm<Eigen::Infinity>());
+    for (const DriveInput* input : {&(*frame.wheel_speeds)[i], &(*frame.wheel_commands)[i]}) {
+      const double fastest = input->head(robots_[i].rims).lpNorm<Eigen::Infinity>();
+      largest_wheel_share_ = std::max(largest_wheel_share_, fastest / robots_[i].wheel_limit);
+    }
   }
 }
 

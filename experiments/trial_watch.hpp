@@ -24,9 +24,8 @@ class TrialWatch : public sim::TrialListener {
   /// What the robot that made the first contact was doing, or else the first that has not arrived at the end.
   /// None after a success.
   [[nodiscard]] std::optional<CauseRecord> cause_of(const sim::TrialResult& result) const;
-  [[nodiscard]] double largest_wheel_speed() const {
-    return largest_wheel_speed_;
-  }  ///< [m/s] true or commanded
+  /// Of any wheel, true or commanded, as a share of its robot's limit.
+  [[nodiscard]] double largest_wheel_share() const { return largest_wheel_share_; }
   /// [s] of the planning calls that searched for a new plan: most calls only find that the plan is still
   /// valid.
   [[nodiscard]] const DurationHistogram& new_plan_time() const { return new_plan_time_; }
@@ -35,7 +34,8 @@ class TrialWatch : public sim::TrialListener {
 
  private:
   struct Robot {
-    int rims = 0;  // of its drive's inputs
+    int rims = 0;              // of its drive's inputs
+    double wheel_limit = 1.0;  // [m/s]
     std::optional<PlanOutcome> plan;
     double plan_time = 0.0;  // [s]
     std::optional<AgentStatus> status;
@@ -44,7 +44,7 @@ class TrialWatch : public sim::TrialListener {
 
   std::vector<Robot> robots_;
   std::optional<CauseRecord> of_first_contact_;
-  double largest_wheel_speed_ = 0.0;
+  double largest_wheel_share_ = 0.0;
   DurationHistogram new_plan_time_, optimiser_time_;
 };
 

@@ -120,6 +120,7 @@ void Rules::check_drive() {
   warn_above(max_speed(), speed, rim, "the wheels reach in every direction");
   warn_above({"robot.max_acceleration", robot_.max_acceleration, "m/s^2"}, drive.max_acceleration_anywhere(),
              torque, "the wheels give in every direction, so that the robot brakes later than it plans");
+  if (robot_.drive == DriveType::car) return;  // turns as it is steered
   warn_above({"robot.max_yaw_rate", robot_.max_yaw_rate, "rad/s"},
              rim.value / wheels.col(2).cwiseAbs().maxCoeff(), rim, "the wheels reach");
   warn_above({"robot.max_yaw_acceleration", robot_.max_yaw_acceleration, "rad/s^2"},

@@ -22,11 +22,11 @@ double length(const Motion& motion) {
 }  // namespace
 
 ContactMonitor::ContactMonitor(const Scenario& scenario)
-    : robot_radius_{scenario.robot.radius},
+    : largest_radius_{scenario.largest_radius()},
       shapes_{scenario},
       free_(scenario.robots.size()),
       static_clearance_(scenario.robots.size(), kFarStatic),
-      grid_{2.0 * scenario.robot.radius + kNearPeer + 2.0 * kPairMargin},
+      grid_{2.0 * scenario.largest_radius() + kNearPeer + 2.0 * kPairMargin},
       touching_static_(scenario.robots.size(), false),
       standing_time_(scenario.robots.size(), 0.0),
       dynamic_distance_{std::numeric_limits<double>::infinity()},
@@ -62,7 +62,7 @@ void ContactMonitor::check_dynamic_obstacles(const Tick& tick, std::size_t robot
                                              const std::vector<DynamicObstacle>& dynamic_obstacles) {
   for (const DynamicObstacle& obstacle : dynamic_obstacles) {
     const Motion motion = part_of(obstacle.motion, tick.share_from, tick.share_to);
-    const double sum = robot_radius_ + obstacle.radius;
+    const double sum = truth.radius + obstacle.radius;
     const double distance = swept_distance(truth.motion, motion);
     if (!truth.arrived && !truth.wrecked) {
       dynamic_distance_ = std::min(dynamic_distance_, distance);
@@ -92,14 +92,14 @@ void ContactMonitor::check_static(const Tick& tick, std::size_t robot, const Rob
     touching_static_[robot] = false;
     return;
   }
-  const double clearance = shapes_.clearance(truth.motion.to, robot_radius_);
+  const double clearance = shapes_.clearance(truth.motion.to, truth.radius);
   free_[robot] = {truth.motion.to, clearance};
   if (!truth.arrived) static_clearance_[robot] = std::min(static_clearance_[robot], clearance);
   if (clearance > length(truth.motion)) {
     touching_static_[robot] = false;
     return;
   }
-  const std::optional<Contact> found = shapes_.first_contact(truth.motion, robot_radius_);
+  const std::optional<Contact> found = shapes_.first_contact(truth.motion, truth.radius);
   if (found && !touching_static_[robot]) {
     Contact contact = contact_of(tick, found->time, robot, truth);
     contact.with = found->with;
@@ -130,7 +130,7 @@ void ContactMonitor::refresh_pairs(const std::vector<RobotTruth>& robots) {
   }
   grid_.assign(centers_);
   pairs_.clear();
-  const double reach = 2.0 * robot_radius_ + kNearPeer + 2.0 * std::max(kPairMargin, longest);
+  const double reach = 2.0 * largest_radius_ + kNearPeer + 2.0 * std::max(kPairMargin, longest);
   for (std::size_t i = 0; i < robots.size(); ++i)
     grid_.visit(centers_[i], reach, [&](int other) {
       const auto j = static_cast<std::size_t>(other);
@@ -142,7 +142,7 @@ void ContactMonitor::check_pair(const Tick& tick, const std::vector<RobotTruth>&
                                 std::size_t j) {
   if (robots[i].wrecked && robots[j].wrecked) return;
   if (robots[i].gone || robots[j].gone) return;
-  const double sum = 2.0 * robot_radius_;
+  const double sum = robots[i].radius + robots[j].radius;
   const double distance = swept_distance(robots[i].motion, robots[j].motion);
   if (!robots[i].arrived || !robots[j].arrived) peer_clearance_ = std::min(peer_clearance_, distance - sum);
   if (distance >= sum || !touching_pairs_.insert({static_cast<int>(i), static_cast<int>(j)}).second) return;

@@ -70,7 +70,7 @@ class ContactMonitor {
     }
   };
 
-  double robot_radius_;  // [m]
+  double largest_radius_;  // [m]
   StaticShapes shapes_;
   std::vector<FreeDisc> free_;                              // by robot
   std::vector<double> static_clearance_;                    // [m] by robot

@@ -74,6 +74,33 @@ TEST(ContactMonitor, RecordsWhoWithWhatWhenAndHowFast) {
   EXPECT_NEAR(contact.other_speed, 1.0, 1e-9);
 }
 
+TEST(ContactMonitor, KnowsTheSizeOfEveryRobot) {
+  Scenario scenario;
+  scenario.robots.resize(2);
+  scenario.fleet.resize(2);
+  scenario.fleet[1].radius = 0.5;
+  give_kinds_in_turn(scenario);
+  ContactMonitor monitor{scenario};
+  std::vector<RobotTruth> robots(2);
+  robots[1].radius = 0.5;
+  const auto contacts_at = [&](double gap, double time) {
+    robots[0].motion = {{0.0, 0.0}, {0.0, 0.0}};
+    robots[1].motion = {{gap, 0.0}, {gap, 0.0}};
+    monitor.check({time, kDt, 0.0, 0.05}, robots, {});
+    return monitor.contacts().size();
+  };
+  EXPECT_EQ(contacts_at(0.81, 0.0), 0U);
+  EXPECT_NEAR(monitor.peer_clearance(), 0.01, 1e-12);
+  EXPECT_EQ(contacts_at(0.79, kDt), 1U);
+
+  const std::vector<DynamicObstacle> disc{{0, false, false, 0.4, {{0.0, 1.0}, {0.0, 1.0}}, {0.0, 0.0}}};
+  robots[1].motion = {{0.0, 0.15}, {0.0, 0.15}};
+  robots[0].motion = {{5.0, 0.0}, {5.0, 0.0}};
+  monitor.check({2.0 * kDt, kDt, 0.0, 0.05}, robots, disc);
+  ASSERT_EQ(monitor.contacts().size(), 2U);
+  EXPECT_EQ(monitor.contacts()[1].robot, 1);
+}
+
 TEST(ContactMonitor, ForgivesOnlyPeopleWhoAppearOutOfNowhere) {
   for (const bool appears : {true, false}) {
     Stage stage{1};

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "sim/families.hpp"
 #include "sim/simulation.hpp"
+#include "sim/world.hpp"
 #include "spf/robot/drive.hpp"
 #include "spf/team/method_table.hpp"
 
@@ -61,6 +64,46 @@ TEST_P(EveryDriveSlow, DrivesWhatOtherMethodsPlan) {
     }
   }
   EXPECT_GE(home, 5);  // of 30: a contact ends the trial for all, and the baselines seldom come through
+}
+
+/// F7 for robots of three kinds, each with its own parameters.
+TEST(MixedFleetSlow, CrossesF7) {
+  FamilySetup setup = family_setup(Family::f7);
+  setup.fleet = {robot_with(DriveType::omni), robot_with(DriveType::differential),
+                 robot_with(DriveType::car)};
+  setup.fleet[0].radius = 0.2;
+  setup.fleet[1].radius = 0.5;
+  std::vector<AgentParameters> agents;
+  for (const RobotParameters& kind : setup.fleet) agents.push_back(defaults_for(kind));
+  const Scenario scenario = make_scenario(setup, kDefaultSeed, 10000);
+  const TrialResult result = Simulation{scenario, agents}.run();
+  EXPECT_EQ(result.outcome, TrialOutcome::success);
+  EXPECT_GT(result.peer_clearance, 0.0);
+  for (const RobotResult& robot : result.robots) EXPECT_LT(robot.travel_time_ratio, 1.5);
+}
+
+TEST(MixedFleet, NeedsParametersForEveryKind) {
+  FamilySetup setup = family_setup(Family::swap);
+  setup.fleet.resize(3);
+  const Scenario scenario = make_scenario(setup, kDefaultSeed, 0);
+  EXPECT_THROW((Simulation{scenario, std::vector<AgentParameters>(2)}), std::invalid_argument);
+  EXPECT_NO_THROW((Simulation{scenario, std::vector<AgentParameters>(3)}));
+  EXPECT_NO_THROW((Simulation{scenario, AgentParameters{}}));
+}
+
+TEST(MixedFleet, DrivesEveryRobotOnItsOwnWheels) {
+  FamilySetup setup = family_setup(Family::swap);
+  setup.layout.robots = 3;
+  setup.fleet = {robot_with(DriveType::mecanum), robot_with(DriveType::differential)};
+  setup.fleet[1].radius = 0.4;
+  const Scenario scenario = make_scenario(setup, kDefaultSeed, 0);
+  const World world{scenario};
+  for (const int robot : {0, 1, 2}) {
+    const bool mecanum = robot != 1;
+    EXPECT_EQ(world.plant(robot).drive().inputs(), mecanum ? 4 : 2) << robot;
+    EXPECT_EQ(world.commands()[static_cast<std::size_t>(robot)].size(), mecanum ? 4 : 2) << robot;
+    EXPECT_EQ(world.robots()[static_cast<std::size_t>(robot)].radius, mecanum ? 0.3 : 0.4) << robot;
+  }
 }
 
 }  // namespace

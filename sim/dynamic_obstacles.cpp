@@ -19,8 +19,7 @@ DynamicObstacles::DynamicObstacles(const Scenario& scenario)
       crowd_{scenario.crowd, scenario.crowd_gap},
       person_radius_{scenario.crowd_radius},
       walkers_{scenario},
-      first_walker_{first_free_id(scenario)},
-      robot_radius_{scenario.robot.radius} {}
+      first_walker_{first_free_id(scenario)} {}
 
 void DynamicObstacles::advance(double time, const std::vector<RobotTruth>& robots) {
   discs_.advance();
@@ -51,7 +50,7 @@ void DynamicObstacles::advance_walkers(const std::vector<RobotTruth>& robots) {
     RoundBody& body = others.emplace_back();
     body.position = robot.pose.position_world;
     body.velocity = robot.velocity_world;
-    body.radius = robot_radius_;
+    body.radius = robot.radius;
   }
   walkers_.advance(others);
   for (std::size_t i = 0; i < walkers_.size(); ++i) {

@@ -40,8 +40,7 @@ class DynamicObstacles {
   Crowd crowd_;
   double person_radius_;  // [m] of those recorded
   Walkers walkers_;
-  int first_walker_;     // its id
-  double robot_radius_;  // [m]
+  int first_walker_;  // its id
   std::vector<DynamicObstacle> dynamic_obstacles_;
 };
 

@@ -186,7 +186,7 @@ bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& 
   constexpr double kStaticDiscRadius = 0.5;  // [m]
   constexpr double kMargin = 1.0;            // [m] between the square of starts and goals and the border
   const double half = 0.5 * kSidePerRoot * std::sqrt(static_cast<double>(layout.robots));
-  const double center_gap = kGap + 2.0 * scenario.robot.radius;
+  const double center_gap = kGap + 2.0 * scenario.largest_radius();
   scenario.border = square(Eigen::Vector2d::Zero(), 2.0 * (half + kMargin));
 
   std::vector<Eigen::Vector2d> starts;
@@ -206,7 +206,7 @@ bool draw_field(RandomStream& random, const LayoutParameters& layout, Scenario& 
     if (!placed) return false;
     scenario.robots.push_back(task_between(starts.back(), goals.back()));
   }
-  const double end_gap = kGap + kStaticDiscRadius + scenario.robot.radius;
+  const double end_gap = kGap + kStaticDiscRadius + scenario.largest_radius();
   std::vector<Eigen::Vector2d> discs;
   const int count = static_cast<int>(static_cast<double>(layout.robots) / kRobotsPerStaticDisc);
   for (int i = 0; i < count; ++i) {
@@ -279,6 +279,7 @@ Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) 
     scenario.trial = trial;
     scenario.seed = seed;
     scenario.robot = checked.robot;
+    scenario.fleet = checked.fleet;
     scenario.simulation = checked.simulation;
     if (checked.family == Family::ped) {
       if (!checked.crowd) throw std::invalid_argument{"the family ped needs a recorded crowd"};
@@ -286,7 +287,10 @@ Scenario make_scenario(const FamilySetup& setup, std::uint64_t seed, int trial) 
       return scenario;
     }
     RandomStream random{mix(trial_seed, static_cast<std::uint64_t>(attempt))};
-    if (draw_scene(checked.family, random, checked.layout, scenario)) return scenario;
+    if (draw_scene(checked.family, random, checked.layout, scenario)) {
+      give_kinds_in_turn(scenario);
+      return scenario;
+    }
     crowded = what_did_not_fit(checked.family, checked.layout, scenario);
   }
   const auto& [entry, wanted] = crowded;

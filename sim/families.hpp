@@ -127,6 +127,7 @@ struct FamilySetup {
   RobotParameters robot;
   SimulationParameters simulation;
   std::shared_ptr<const CrowdRecording> crowd;  ///< of ped, which requires one; not among the fields
+  std::vector<RobotParameters> fleet;           ///< kinds of robots, taken in turn; empty: all are `robot`
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {

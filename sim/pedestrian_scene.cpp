@@ -57,13 +57,10 @@ void place_among_people(const CrowdRecording& crowd, const LayoutParameters& lay
   if (trial < 0 || trial >= windows)
     refuse("trial ", trial, " is beyond the recording, which has ", windows, " windows of ", layout.window,
            " s: trials 0 to ", windows - 1);
-  double slowest = 0.0;
-  for (int i = 0; i < layout.robots; ++i) {
+  for (int i = 0; i < layout.robots; ++i)
     scenario.robots.push_back(task_from_side(crowd.extent(), i, layout.robots));
-    const RobotTask& task = scenario.robots.back();
-    slowest = std::max(slowest, rest_to_rest_time((task.goal_world - task.start.position_world).norm(),
-                                                  scenario.robot.max_speed, scenario.robot.max_acceleration));
-  }
+  give_kinds_in_turn(scenario);
+  const double slowest = slowest_time_of(scenario);
   const double nominal = crowd.begin() + trial * layout.window_spacing;
   // The latest start for which the robots still cross among people.
   const double latest = std::max(nominal, crowd.end() - slowest);

@@ -38,17 +38,20 @@ void take_nearer(RecordedClearance& clearance, double distance, int other) {
   if (distance < clearance.distance) clearance = {distance, other};
 }
 
-void measure_clearances(const TrialFrame& view, std::size_t robot, double radius, RecordedRobot& recorded) {
+void measure_clearances(const TrialFrame& view, std::size_t robot, RecordedRobot& recorded) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const Eigen::Vector2d& position = recorded.pose.position_world;
+  const double radius = (*view.robots)[robot].radius;
   recorded.to_dynamic = recorded.to_peer = {kNone, -1};
   for (const DynamicObstacle& obstacle : *view.dynamic_obstacles)
     take_nearer(recorded.to_dynamic,
                 (obstacle.motion.at(view.share) - position).norm() - radius - obstacle.radius, obstacle.id);
-  for (std::size_t j = 0; j < view.robots->size(); ++j)
+  for (std::size_t j = 0; j < view.robots->size(); ++j) {
+    const RobotTruth& other = (*view.robots)[j];
     if (j != robot)
-      take_nearer(recorded.to_peer, ((*view.robots)[j].pose.position_world - position).norm() - 2.0 * radius,
+      take_nearer(recorded.to_peer, (other.pose.position_world - position).norm() - (radius + other.radius),
                   static_cast<int>(j));
+  }
   recorded.to_static = {view.shapes->clearance(position, radius), -1};
 }
 
@@ -84,7 +87,7 @@ void Recorder::frame(const TrialFrame& view) {
     robot.status = agent.status();
     robot.wrecked = truth.wrecked;
     robot.control_us = (*view.control_us)[i];
-    measure_clearances(view, i, recording_->scenario.robot.radius, robot);
+    measure_clearances(view, i, robot);
     for (const ObstacleTrack& track : agent.tracks()) {
       const double ahead = std::max(view.time - track.time, 0.0);
       ObstacleState state = track.state;

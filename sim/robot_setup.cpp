@@ -99,7 +99,7 @@ OccupancyMap robot_map(const Scenario& scenario) {
 }
 
 AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent) {
-  agent.robot = scenario.robot;
+  if (scenario.fleet.empty()) agent.robot = scenario.robot;
   agent.team.goal_tolerance =
       std::min(agent.team.goal_tolerance, 0.5 * scenario.simulation.trial.arrival_distance);
   // What a robot knows of its own sensors.
@@ -121,7 +121,7 @@ host::HostParameters host_parameters_for(const Scenario& scenario, const AgentPa
   constexpr double kPeriods = 3.0;  // that a watchdog bears
   const SimulationParameters& simulation = scenario.simulation;
   const PoseNoiseParameters& noise = simulation.pose_noise;
-  host::HostParameters host = scaled(host::HostParameters{}, RobotScale{scenario.robot});
+  host::HostParameters host = scaled(host::HostParameters{}, RobotScale{agent.robot});
   const double spread = kSigmas * std::hypot(noise.position_sigma, noise.seam_sigma);
   host.jump_distance = std::min(host.jump_distance + spread, 1000.0);
   host.jump_heading = std::min(host.jump_heading + kSigmas * noise.heading_sigma, 6.3);

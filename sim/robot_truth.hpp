@@ -10,6 +10,7 @@ struct RobotTruth {
   Pose2 pose;
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]
   Motion motion;                                             ///< over the last tick
+  double radius = 0.3;                                       ///< [m]
   bool arrived = false;                                      ///< has reached its goal once
   bool wrecked = false;                                      ///< disabled by a contact (AfterContact::wreck)
   bool gone = false;                                         ///< has left the scene (AfterArrival::leave)

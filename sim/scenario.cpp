@@ -128,9 +128,8 @@ struct Ground {
 };
 
 void require_free_cells(Report& report, const std::string& where, const Eigen::Vector2d& position,
-                        const Scenario& scenario, const Ground& ground) {
+                        double radius, const Scenario& scenario, const Ground& ground) {
   if (!scenario.map) return;
-  const double radius = scenario.robot.radius;
   std::ostringstream problem;
   if (scenario.map->occupied(position)) {
     problem << "is in an occupied cell of the map, or beyond its edges";
@@ -146,11 +145,10 @@ void require_free_cells(Report& report, const std::string& where, const Eigen::V
 }
 
 /// A robot's centre must stay its radius away from everything static.
-void check_position(Report& report, const std::string& where, const Eigen::Vector2d& position,
+void check_position(Report& report, const std::string& where, const Eigen::Vector2d& position, double radius,
                     const Scenario& scenario, const Ground& ground) {
   report.require_finite(where, position);
   if (!position.allFinite()) return;
-  const double radius = scenario.robot.radius;
   if (scenario.border && depth_inside(position, *scenario.border) < radius)
     report.add_point(where, position, "must lie inside the border by the radius ", radius, " m");
   FirstOfMany inside;
@@ -172,7 +170,7 @@ void check_position(Report& report, const std::string& where, const Eigen::Vecto
         .add(where, "is ", inside.distance(), " m from ", inside.name(), ", less than the radius ", radius,
              " m", inside.and_more())
         .other = inside.name();
-  require_free_cells(report, where, position, scenario, ground);
+  require_free_cells(report, where, position, radius, scenario, ground);
 }
 
 constexpr std::size_t kMostPeople = 1000;       // who react to each other
@@ -224,8 +222,9 @@ void check_robots(Report& report, const Scenario& scenario) {
   const Ground ground{scenario};
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     const RobotTask& task = scenario.robots[i];
-    check_position(report, entry("robots", i, ".start"), task.start.position_world, scenario, ground);
-    check_position(report, entry("robots", i, ".goal"), task.goal_world, scenario, ground);
+    const double radius = scenario.robot_of(i).radius;
+    check_position(report, entry("robots", i, ".start"), task.start.position_world, radius, scenario, ground);
+    check_position(report, entry("robots", i, ".goal"), task.goal_world, radius, scenario, ground);
     if (!std::isfinite(task.start.heading))
       report.add(entry("robots", i, ".start"), "heading must be finite");
     if (task.goal_heading && !std::isfinite(*task.goal_heading))
@@ -234,7 +233,7 @@ void check_robots(Report& report, const Scenario& scenario) {
     FirstOfMany inside;
     for (std::size_t d = 0; d < scenario.moving.size(); ++d) {
       const double gap = (task.start.position_world - scenario.moving[d].position_world).norm();
-      if (gap < scenario.robot.radius + scenario.moving[d].radius) inside.add(gap, "moving", d);
+      if (gap < radius + scenario.moving[d].radius) inside.add(gap, "moving", d);
     }
     for (std::size_t p = 0; p < scenario.people.size(); ++p) {
       const PersonTask& person = scenario.people[p];
@@ -243,21 +242,22 @@ void check_robots(Report& report, const Scenario& scenario) {
           person.anywhere && std::any_of(person.waypoints.begin(), person.waypoints.end(), elsewhere);
       if (person.waypoints.empty() || draws) continue;
       const double gap = (task.start.position_world - person.waypoints.front()).norm();
-      if (gap < scenario.robot.radius + person.radius) inside.add(gap, "people", p);
+      if (gap < radius + person.radius) inside.add(gap, "people", p);
     }
     report_overlap(report, i, inside);
     starts.push_back(task.start.position_world);
   }
   if (starts.size() != scenario.robots.size()) return;  // not finite: indices below would not fit
-  const double sum = 2.0 * scenario.robot.radius;
-  UniformGrid grid{std::max(sum, 1e-3)};
+  const double largest_sum = 2.0 * scenario.largest_radius();
+  UniformGrid grid{std::max(largest_sum, 1e-3)};
   grid.assign(starts);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     FirstOfMany inside;
-    grid.visit(starts[i], sum, [&](int other) {
+    grid.visit(starts[i], largest_sum, [&](int other) {
       const std::size_t j = static_cast<std::size_t>(other);
       const double gap = (starts[i] - starts[j]).norm();
-      if (j < i && gap < sum) inside.add(gap, "robots", j);
+      if (j < i && gap < scenario.robot_of(i).radius + scenario.robot_of(j).radius)
+        inside.add(gap, "robots", j);
     });
     report_overlap(report, i, inside);
   }
@@ -272,6 +272,16 @@ std::string to_text(const ScenarioProblem& problem) {
 std::vector<ScenarioProblem> problems_of(const Scenario& scenario) {
   Report report;
   for (const std::string& problem : problems(scenario.robot)) report.add("robot", problem);
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i)
+    for (const std::string& problem : problems(scenario.fleet[i])) report.add(entry("fleet", i), problem);
+  const std::size_t kinds = std::max<std::size_t>(1, scenario.fleet.size());
+  bool known = true;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+    if (scenario.robots[i].kind >= kinds) {
+      known = false;
+      report.add(entry("robots", i, ".kind"), "must be below ", kinds, ", the number of kinds of robots");
+    }
+  if (!known) return report.take();
   for (const std::string& problem : problems(scenario.simulation)) report.add("simulation", problem);
   if (std::remainder(scenario.simulation.trial.plant_rate, 10.0) != 0.0)
     report.add("simulation", "trial.plant_rate = ", scenario.simulation.trial.plant_rate,
@@ -282,19 +292,38 @@ std::vector<ScenarioProblem> problems_of(const Scenario& scenario) {
   return report.take();
 }
 
+double Scenario::largest_radius() const {
+  double largest = fleet.empty() ? robot.radius : 0.0;
+  for (const RobotParameters& kind : fleet) largest = std::max(largest, kind.radius);
+  return largest;
+}
+
 double rest_to_rest_time(double distance, double max_speed, double max_acceleration) {
   if (distance >= max_speed * max_speed / max_acceleration)
     return distance / max_speed + max_speed / max_acceleration;
   return 2.0 * std::sqrt(std::max(distance, 0.0) / max_acceleration);
 }
 
+double slowest_time_of(const Scenario& scenario) {
+  double slowest = 0.0;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const RobotTask& task = scenario.robots[i];
+    const RobotParameters& robot = scenario.robot_of(i);
+    slowest = std::max(slowest, rest_to_rest_time((task.goal_world - task.start.position_world).norm(),
+                                                  robot.max_speed, robot.max_acceleration));
+  }
+  return slowest;
+}
+
 double time_limit_of(const Scenario& scenario) {
   if (scenario.simulation.trial.time_limit > 0.0) return scenario.simulation.trial.time_limit;
-  double slowest = 0.0;
-  for (const RobotTask& task : scenario.robots)
-    slowest = std::max(slowest, rest_to_rest_time((task.goal_world - task.start.position_world).norm(),
-                                                  scenario.robot.max_speed, scenario.robot.max_acceleration));
-  return std::max(120.0, 4.0 * slowest);
+  return std::max(120.0, 4.0 * slowest_time_of(scenario));
+}
+
+void give_kinds_in_turn(Scenario& scenario) {
+  if (scenario.fleet.empty()) return;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+    scenario.robots[i].kind = i % scenario.fleet.size();
 }
 
 std::uint64_t stream_seed(const Scenario& scenario, StreamRole role, std::uint64_t index) {

@@ -40,6 +40,7 @@ struct RobotTask {
   Pose2 start;
   Eigen::Vector2d goal_world = Eigen::Vector2d::Zero();  ///< [m]
   std::optional<double> goal_heading;                    ///< [rad], free when absent
+  std::size_t kind = 0;                                  ///< of Scenario::fleet, where that names kinds
 };
 
 /// One sample of a recorded crowd: a person is a disc that moves linearly between its samples, present from
@@ -72,8 +73,16 @@ struct Scenario {
   double crowd_gap = kUnlimited;         ///< [s] a person without a sample for longer is absent meanwhile
   std::vector<PersonTask> people;        ///< who walk from waypoint to waypoint
   std::vector<RobotTask> robots;
-  RobotParameters robot;  ///< all robots of a fleet are alike
+  RobotParameters robot;               ///< of all robots, unless there are kinds of them
+  std::vector<RobotParameters> fleet;  ///< the kinds of robots; empty: all are alike
   SimulationParameters simulation;
+
+  /// Parameters of the robot `number`.
+  [[nodiscard]] const RobotParameters& robot_of(std::size_t number) const {
+    return fleet.empty() ? robot : fleet[robots[number].kind];
+  }
+  /// [m] of the largest robot.
+  [[nodiscard]] double largest_radius() const;
 };
 
 /// A rule that a scenario breaks. Entries are named as in scenario files.
@@ -93,6 +102,12 @@ struct ScenarioProblem {
 
 /// Time of the fastest rest-to-rest motion over a straight distance [s]: a trapezoid of speed.
 [[nodiscard]] double rest_to_rest_time(double distance, double max_speed, double max_acceleration);
+
+/// Time of the fastest motion to the goal [s] of the robot that needs the longest, were there no obstacles.
+[[nodiscard]] double slowest_time_of(const Scenario& scenario);
+
+/// Gives the robots the kinds of the fleet one after the other, from the first again after the last.
+void give_kinds_in_turn(Scenario& scenario);
 
 /// The trial's time limit [s]: as set, or max(120 s, 4 times the slowest robot's obstacle-free time)
 /// (docs/protocol.md).

@@ -17,10 +17,11 @@ Sensing::Sensing(const Scenario& scenario)
     : parameters_{scenario.simulation.sensing},
       pose_noise_{scenario.simulation.pose_noise},
       seams_{scenario.seams},
-      robot_radius_{scenario.robot.radius},
+      largest_radius_{scenario.largest_radius()},
       range_sensor_{scenario},
       observations_(scenario.robots.size(), 0) {
   for (std::uint64_t robot = 0; robot < scenario.robots.size(); ++robot) {
+    radii_.push_back(scenario.robot_of(robot).radius);
     pose_channels_.push_back({RandomStream{stream_seed(scenario, StreamRole::pose, robot)},
                               RandomStream{stream_seed(scenario, StreamRole::seam, robot)}});
     detection_seeds_.push_back(stream_seed(scenario, StreamRole::detection, robot));
@@ -110,9 +111,9 @@ void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundi
   surroundings.robot_grid->visit(from, reach, [&](int peer) {
     const Eigen::Vector2d& position = (*surroundings.robots)[static_cast<std::size_t>(peer)];
     if (peer == robot || (position - from).norm() > reach) return;
-    if (!range_sensor_.sees(from, {position, robot_radius_}, bodies_)) return;
-    Detection detection =
-        detect(robot, kPeerDetectionId + peer, position, Eigen::Vector2d::Zero(), robot_radius_);
+    const double radius = radii_[static_cast<std::size_t>(peer)];
+    if (!range_sensor_.sees(from, {position, radius}, bodies_)) return;
+    Detection detection = detect(robot, kPeerDetectionId + peer, position, Eigen::Vector2d::Zero(), radius);
     detection.velocity_world.reset();  // detected, not broadcast: the tracker has to estimate it
     observation.detections.push_back(detection);
   });
@@ -126,9 +127,9 @@ void Sensing::gather_bodies(int robot, const Eigen::Vector2d& from, const Surrou
   for (const DynamicObstacle& obstacle : *surroundings.dynamic_obstacles)
     bodies_.push_back({obstacle.motion.at(surroundings.share), obstacle.radius});
   if (parameters_.peers_block_beams)
-    surroundings.robot_grid->visit(from, parameters_.range + robot_radius_, [&](int peer) {
-      if (peer != robot)
-        bodies_.push_back({(*surroundings.robots)[static_cast<std::size_t>(peer)], robot_radius_});
+    surroundings.robot_grid->visit(from, parameters_.range + largest_radius_, [&](int peer) {
+      const auto index = static_cast<std::size_t>(peer);
+      if (peer != robot) bodies_.push_back({(*surroundings.robots)[index], radii_[index]});
     });
 }
 

@@ -58,7 +58,8 @@ class Sensing {
   SensingParameters parameters_;
   PoseNoiseParameters pose_noise_;
   std::vector<Segment> seams_;
-  double robot_radius_;  // [m]
+  std::vector<double> radii_;  // [m] by robot
+  double largest_radius_;      // [m] of them
   RangeSensor range_sensor_;
   std::vector<PoseChannel> pose_channels_;      // by robot
   std::vector<std::uint64_t> detection_seeds_;  // by robot

@@ -1,6 +1,9 @@
 #include "sim/simulation.hpp"
 
+#include <algorithm>
 #include <deque>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "sim/agent_meter.hpp"
@@ -9,6 +12,31 @@
 #include "sim/world.hpp"
 
 namespace spf::sim {
+namespace {
+
+/// What runs on the robots of one kind.
+struct Crew {
+  AgentParameters agent;
+  host::HostParameters host;
+};
+
+std::vector<Crew> crews_of(const Scenario& scenario, const std::vector<AgentParameters>& agents) {
+  const std::size_t kinds = std::max<std::size_t>(1, scenario.fleet.size());
+  if (agents.size() != 1 && agents.size() != kinds)
+    throw std::invalid_argument("parameters of " + std::to_string(agents.size()) + " kinds of robots for " +
+                                std::to_string(kinds));
+  std::vector<Crew> crews;
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
+    AgentParameters agent = agents[agents.size() == 1 ? 0 : kind];
+    if (!scenario.fleet.empty()) agent.robot = scenario.fleet[kind];
+    agent = agent_parameters_for(scenario, std::move(agent));
+    host::refuse_contradictions(contradictions(scenario, agent));
+    crews.push_back({agent, host_parameters_for(scenario, agent)});
+  }
+  return crews;
+}
+
+}  // namespace
 
 struct Simulation::Implementation {
   /// What stands between the world and one robot.
@@ -24,7 +52,7 @@ struct Simulation::Implementation {
     double pose_seconds = 0.0;              // taking in poses since the last control tick
   };
 
-  Implementation(const Scenario& scenario, const AgentParameters& agent,
+  Implementation(const Scenario& scenario, const std::vector<AgentParameters>& agents,
                  const SimulationOptions& given_options);
 
   // One tick, in the order of docs/protocol.md.
@@ -55,7 +83,7 @@ struct Simulation::Implementation {
   SimulationOptions options;
   World world;
   std::vector<host::RobotHost> robots;
-  Drive drive;
+  std::vector<Drive> drives;             // by robot
   std::vector<DriveInput> wheel_speeds;  // true; filled for listeners
   Radio radio;
   AgentMeter meter;
@@ -71,31 +99,28 @@ struct Simulation::Implementation {
   std::vector<float> control_us;
 };
 
-Simulation::Implementation::Implementation(const Scenario& scenario, const AgentParameters& agent,
+Simulation::Implementation::Implementation(const Scenario& scenario,
+                                           const std::vector<AgentParameters>& agents,
                                            const SimulationOptions& given_options)
-    : options{given_options},
-      world{scenario},
-      drive{scenario.robot},
-      radio{scenario},
-      meter{scenario.robots.size()} {
-  const AgentParameters parameters = agent_parameters_for(scenario, agent);
-  host::refuse_contradictions(contradictions(scenario, parameters));
+    : options{given_options}, world{scenario}, radio{scenario}, meter{scenario.robots.size()} {
+  const std::vector<Crew> crews = crews_of(scenario, agents);
   const OccupancyMap map = robot_map(scenario);
   if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame());
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
     if (listener != nullptr) listeners.push_back(listener);
   const std::size_t count = scenario.robots.size();
-  const host::HostParameters hosting = host_parameters_for(scenario, parameters);
   const host::Motion motion = ideal() ? host::Motion::as_planned : host::Motion::by_wheels;
   robots.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const RobotTask& task = scenario.robots[i];
-    robots.emplace_back(static_cast<int>(i), parameters, hosting, motion);
+    const Crew& crew = crews[scenario.fleet.empty() ? 0 : task.kind];
+    robots.emplace_back(static_cast<int>(i), crew.agent, crew.host, motion);
     robots.back().planner().set_keep_candidates(options.record);
     robots.back().planner().set_goal({task.goal_world, task.goal_heading});
     robots.back().start(map, task.start, 0.0);
+    drives.emplace_back(scenario.robot_of(i));
+    wheel_speeds.push_back(drives.back().standstill());
   }
-  wheel_speeds.assign(count, drive.standstill());
   desks.resize(count);
   last_control_us.assign(count, 0.0);
 }
@@ -256,7 +281,7 @@ void Simulation::Implementation::tell_frame() {
     if (ideal()) {
       const double yaw_rate = robots[i].agent().committed().heading_state(now()).yaw_rate;
       const Eigen::Vector3d twist{truth[i].velocity_world.x(), truth[i].velocity_world.y(), yaw_rate};
-      wheel_speeds[i] = drive.input_from_world(twist, truth[i].pose.heading);
+      wheel_speeds[i] = drives[i].input_from_world(twist, truth[i].pose.heading);
     } else {
       wheel_speeds[i] = world.plant(static_cast<int>(i)).input();
     }
@@ -289,9 +314,12 @@ TrialResult Simulation::Implementation::result() {
   return result;
 }
 
+Simulation::Simulation(const Scenario& scenario, const std::vector<AgentParameters>& agents,
+                       const SimulationOptions& options)
+    : implementation_{std::make_unique<Implementation>(scenario, agents, options)} {}
 Simulation::Simulation(const Scenario& scenario, const AgentParameters& agent,
                        const SimulationOptions& options)
-    : implementation_{std::make_unique<Implementation>(scenario, agent, options)} {}
+    : Simulation{scenario, std::vector<AgentParameters>{agent}, options} {}
 Simulation::~Simulation() = default;
 
 TrialResult Simulation::run() {

@@ -36,8 +36,12 @@ struct SimulationOptions {
 
 class Simulation {
  public:
-  /// `agent` is the fleet's parameters; its robot and (from below) goal tolerance are the scenario's. Throws
-  /// std::invalid_argument with all reasons when the scenario or the parameters cannot be used.
+  /// `agents` are the parameters of each kind of robot (Scenario::fleet), one where all are alike; robot and
+  /// (from below) goal tolerance are the scenario's. Throws std::invalid_argument with all reasons when the
+  /// scenario or the parameters cannot be used.
+  Simulation(const Scenario& scenario, const std::vector<AgentParameters>& agents,
+             const SimulationOptions& options = {});
+  /// The same where robots of all kinds have the same parameters.
   Simulation(const Scenario& scenario, const AgentParameters& agent, const SimulationOptions& options = {});
   ~Simulation();
   Simulation(const Simulation&) = delete;
@@ -54,7 +58,8 @@ class Simulation {
 /// The map that robots are given: its frame, the border, and the static shapes when they are known.
 [[nodiscard]] OccupancyMap robot_map(const Scenario& scenario);
 
-/// The parameters an agent gets in this scenario: the robot's and the rules of the trial over the fleet's.
+/// The parameters an agent gets in this scenario: the robot's (unless there are kinds of robots: then
+/// agent.robot stays as it is) and the rules of the trial over those given.
 [[nodiscard]] AgentParameters agent_parameters_for(const Scenario& scenario, AgentParameters agent);
 
 /// What a robot's host reckons with in this scenario. Its guards are up, and as wide as the scenario's own
@@ -65,7 +70,7 @@ class Simulation {
 [[nodiscard]] host::HostParameters host_parameters_for(const Scenario& scenario,
                                                        const AgentParameters& agent);
 
-/// What contradicts each other in a scenario with these agents. Keys are those of scenario files.
+/// What contradicts each other in a scenario with this agent. Keys are those of scenario files.
 [[nodiscard]] std::vector<host::Contradiction> contradictions(const Scenario& scenario,
                                                               const AgentParameters& agent);
 

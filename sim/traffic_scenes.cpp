@@ -57,7 +57,7 @@ bool draw_position(RandomStream& random, const TwoRooms& rooms, int side, double
 }
 
 bool place_robots(RandomStream& random, const TwoRooms& rooms, int robots, Scenario& scenario) {
-  const double radius = scenario.robot.radius;
+  const double radius = scenario.largest_radius();
   std::vector<Eigen::Vector2d> starts;
   std::vector<Eigen::Vector2d> goals;
   for (int i = 0; i < robots; ++i) {

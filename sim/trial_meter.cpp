@@ -19,10 +19,13 @@ std::uint64_t bits_of(double value) {
 }  // namespace
 
 TrialMeter::TrialMeter(const Scenario& scenario)
-    : tasks_{scenario.robots},
-      robot_{scenario.robot},
-      parameters_{scenario.simulation.trial},
-      robots_(scenario.robots.size()) {}
+    : tasks_{scenario.robots}, parameters_{scenario.simulation.trial}, robots_(scenario.robots.size()) {
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    const RobotParameters& robot = scenario.robot_of(i);
+    fastest_.push_back(rest_to_rest_time((tasks_[i].goal_world - tasks_[i].start.position_world).norm(),
+                                         robot.max_speed, robot.max_acceleration));
+  }
+}
 
 void TrialMeter::moved(double time, std::vector<RobotTruth>& robots) {
   arrivals_.clear();
@@ -63,9 +66,8 @@ void TrialMeter::finish(double time, const std::vector<RobotTruth>& robots, cons
     robot.wrecked = robots[i].wrecked;
     robot.static_clearance = monitor.static_clearance(static_cast<int>(i));
     const double straight = (tasks_[i].goal_world - tasks_[i].start.position_world).norm();
-    const double fastest = rest_to_rest_time(straight, robot_.max_speed, robot_.max_acceleration);
     robot.path_length_ratio = straight > 0.0 ? robot.path_length / straight : 1.0;
-    robot.travel_time_ratio = fastest > 0.0 ? robot.travel_time / fastest : 1.0;
+    robot.travel_time_ratio = fastest_[i] > 0.0 ? robot.travel_time / fastest_[i] : 1.0;
     const double latest = parameters_.latest_arrival;
     robot.in_time = robot.arrived && (latest <= 0.0 || robot.travel_time_ratio <= latest);
     if (robot.arrived) result.last_arrival = std::max(result.last_arrival, robot.travel_time);

@@ -28,7 +28,7 @@ class TrialMeter {
 
  private:
   std::vector<RobotTask> tasks_;
-  RobotParameters robot_;
+  std::vector<double> fastest_;  // [s] by robot: rest to rest, straight, alone
   TrialParameters parameters_;
   std::vector<RobotResult> robots_;
   std::vector<int> arrivals_;

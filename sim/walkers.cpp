@@ -54,11 +54,11 @@ void Walkers::choose_start(const Scenario& scenario, std::size_t index, Person& 
   for (int draw = 0; draw < kMostDraws; ++draw) {
     person = at_first;
     follow_path(person, random.uniform() * length_of_path(person.task));
-    const double wanted = kStartGap + scenario.robot.radius + person.task.radius;
-    const bool near =
-        std::any_of(scenario.robots.begin(), scenario.robots.end(), [&](const RobotTask& robot) {
-          return (robot.start.position_world - person.body.position).norm() < wanted;
-        });
+    bool near = false;
+    for (std::size_t robot = 0; robot < scenario.robots.size(); ++robot) {
+      const double wanted = kStartGap + scenario.robot_of(robot).radius + person.task.radius;
+      near = near || (scenario.robots[robot].start.position_world - person.body.position).norm() < wanted;
+    }
     if (!near) return;
   }
 }

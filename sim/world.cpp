@@ -31,18 +31,20 @@ World::World(const Scenario& scenario)
       pose_ticks_{ticks_between(plant_rate_, scenario.simulation.pose_noise.rate)},
       observation_ticks_{ticks_between(plant_rate_, scenario.simulation.sensing.rate)},
       time_limit_{time_limit_of(scenario)},
-      commands_(scenario.robots.size(), Drive{scenario.robot}.standstill()),
       grid_{std::max(1.0, scenario.simulation.sensing.range)},
       dynamic_obstacles_{scenario},
       sensing_{scenario},
       monitor_{scenario},
       meter_{scenario} {
-  for (const RobotTask& task : scenario.robots) {
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const RobotTask& task = scenario.robots[i];
     RobotTruth truth;
     truth.pose = task.start;
     truth.motion = {task.start.position_world, task.start.position_world};
+    truth.radius = scenario.robot_of(i).radius;
     robots_.push_back(truth);
-    plants_.emplace_back(scenario.robot, PlantState{task.start, Eigen::Vector3d::Zero()});
+    plants_.emplace_back(scenario.robot_of(i), PlantState{task.start, Eigen::Vector3d::Zero()});
+    commands_.push_back(Drive{scenario.robot_of(i)}.standstill());
     placements_.push_back({task.start});
     positions_.push_back(task.start.position_world);
   }

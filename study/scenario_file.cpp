@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
@@ -17,7 +17,6 @@
 #include "config/yaml_writer.hpp"
 #include "sim/pedestrian_scene.hpp"
 #include "sim/simulation.hpp"
-#include "spf/math/random_stream.hpp"
 #include "spf/robot/robot_scale.hpp"
 
 namespace spf {
@@ -27,6 +26,27 @@ namespace {
 SceneFamily likely_family(const YamlNode& root) {
   const YamlNode* robots = root.find("robots");
   return robots != nullptr && robots->kind == YamlKind::list ? kExplicitScene : SceneFamily{sim::Family::t2};
+}
+
+/// Kinds of robots as they are before their own entries are read: what the file says of all robots, with
+/// defaults for the robot and the method of the entry. Nothing is reported: all is read again.
+void prepare_fleet(const YamlNode& root, RunConfiguration& config) {
+  const YamlNode* fleet = root.find("fleet");
+  if (fleet == nullptr || fleet->kind != YamlKind::list || fleet->items.size() > kMostEntries) return;
+  InputProblems reported_later;
+  const std::vector<std::string> no_hints;
+  for (const YamlNode& entry : fleet->items) {
+    RobotKind kind;
+    kind.method = config.method;
+    kind.robot = config.robot;
+    FieldReader own{entry, "", no_hints, reported_later};
+    RobotKind::visit_robot(kind, own);
+    kind.agent = with_method(defaults_for(kind.robot), kind.method.method());
+    FieldReader common{root, "", no_hints, reported_later};
+    PartlyHidden<AgentParameters> agent{kind.agent, {"robot"}};
+    common.group("agent", agent);
+    config.fleet.push_back(std::move(kind));
+  }
 }
 
 /// Reads every key once, those on which defaults depend first.
@@ -39,11 +59,14 @@ RunConfiguration read_keys(const YamlNode& root, const MethodTable& methods, Inp
   RunConfiguration::visit_head(head, reader);
   head.robot = default_run_configuration(head.family, head.method).robot;
   keys = keys_of(head);
+  std::erase_if(keys, [](const std::string& key) { return key.rfind("fleet[].", 0) == 0; });
   reader.group("robot", head.robot);
   RunConfiguration config = default_run_configuration(head.family, head.method, head.robot);
   config.seed = head.seed;
   RunConfiguration::visit_scene(config, reader);
   RunConfiguration::visit_parameters(config, reader);
+  prepare_fleet(root, config);
+  RunConfiguration::visit_fleet(config, reader);
   reader.finish();
   return config;
 }
@@ -55,11 +78,18 @@ double heading_of(const RobotEntry& entry) {
   return std::atan2(to_goal.y(), to_goal.x());
 }
 
+std::vector<RobotParameters> robots_of(const std::vector<RobotKind>& fleet) {
+  std::vector<RobotParameters> robots;
+  for (const RobotKind& kind : fleet) robots.push_back(kind.robot);
+  return robots;
+}
+
 sim::Scenario explicit_scenario(const RunConfiguration& config) {
   sim::Scenario scenario;
   scenario.family = enum_name(kExplicitScene);
   scenario.seed = config.seed;
   scenario.robot = config.robot;
+  scenario.fleet = robots_of(config.fleet);
   scenario.simulation = config.simulation;
   if (config.scene.border) scenario.border = sim::Box{config.scene.border->low, config.scene.border->high};
   for (const BoxEntry& box : config.scene.boxes) scenario.boxes.push_back({box.low, box.high});
@@ -73,6 +103,10 @@ sim::Scenario explicit_scenario(const RunConfiguration& config) {
   for (const PersonEntry& person : config.scene.people) scenario.people.push_back(person.task);
   for (const RobotEntry& robot : config.scene.robots)
     scenario.robots.push_back({{robot.start, heading_of(robot)}, robot.goal, robot.goal_heading});
+  give_kinds_in_turn(scenario);
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
+    if (config.scene.robots[i].kind != kInTurn)
+      scenario.robots[i].kind = static_cast<std::size_t>(config.scene.robots[i].kind);
   return scenario;
 }
 
@@ -84,17 +118,17 @@ std::string entry(const char* list, std::size_t index, const char* member) {
 /// border.
 std::vector<sim::ScenarioProblem> more_problems_of(const sim::Scenario& scenario) {
   std::vector<sim::ScenarioProblem> found;
-  const double sum = 2.0 * scenario.robot.radius;
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     std::string first, nearest;  // of the goals that are too near; further ones are counted
     std::size_t others = 0;
     for (std::size_t j = 0; j < i; ++j) {
       const double gap = (scenario.robots[i].goal_world - scenario.robots[j].goal_world).norm();
+      const double sum = scenario.robot_of(i).radius + scenario.robot_of(j).radius;
       if (!(gap < sum)) continue;
       if (first.empty()) {
         nearest = entry("robots", j, ".goal");
-        first = "is " + to_text(gap) + " m from " + entry("robots", j, ".goal") + ", less than two radii, " +
-                to_text(sum) + " m";
+        first = "is " + to_text(gap) + " m from " + entry("robots", j, ".goal") +
+                ", less than their radii, " + to_text(sum) + " m";
       } else {
         ++others;
       }
@@ -121,7 +155,12 @@ void check_explicit(const YamlNode& root, const RunConfiguration& config, InputP
   const InputProblems refused = problems;
   const sim::Scenario scenario = explicit_scenario(config);
   std::vector<sim::ScenarioProblem> found = sim::problems_of(scenario);
-  for (sim::ScenarioProblem& problem : more_problems_of(scenario)) found.push_back(std::move(problem));
+  const bool kinds_exist =
+      std::all_of(scenario.robots.begin(), scenario.robots.end(), [&](const sim::RobotTask& task) {
+        return scenario.fleet.empty() || task.kind < scenario.fleet.size();
+      });
+  if (kinds_exist)
+    for (sim::ScenarioProblem& problem : more_problems_of(scenario)) found.push_back(std::move(problem));
   for (const sim::ScenarioProblem& problem : found) {
     if (refused.refuses(problem.where) || (!problem.other.empty() && refused.refuses(problem.other)))
       continue;
@@ -160,43 +199,6 @@ void check_drawn(const YamlNode& root, const RunConfiguration& config, InputProb
   } catch (const std::exception& error) {
     refuse(error.what());
   }
-}
-
-/// A number that differs when the numbers do that are added one after the other.
-class Content {
- public:
-  void add(double value) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    value_ = mix(value_, bits);
-  }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0;
-};
-
-std::uint64_t content_of(const sim::CrowdRecording& recording) {
-  Content content;
-  for (const sim::CrowdSample& sample : recording.samples()) {
-    content.add(sample.time);
-    content.add(sample.id);
-    content.add(sample.position_world.x());
-    content.add(sample.position_world.y());
-  }
-  return content.value();
-}
-
-std::uint64_t content_of(const sim::StaticMap& map) {
-  Content content;
-  const host::CellMap cells = map.cells();
-  content.add(cells.resolution);
-  for (const Eigen::Vector2d& corner : map.corners()) {
-    content.add(corner.x());
-    content.add(corner.y());
-  }
-  for (const std::int8_t value : *cells.values) content.add(value);
-  return content.value();
 }
 
 bool needs_recording(const RunConfiguration& config) {
@@ -263,11 +265,22 @@ void read_recording(const YamlNode& root, RunConfiguration& config, InputProblem
 void check_settings(const YamlNode& root, RunConfiguration& config, InputProblems& problems) {
   sim::Scenario scenario;
   scenario.robot = config.robot;
+  scenario.fleet = robots_of(config.fleet);
   scenario.simulation = config.simulation;
   scenario.robots.resize(config.family.drawn ? static_cast<std::size_t>(config.layout.robots)
                                              : config.scene.robots.size());
-  report_contradictions(root, sim::contradictions(scenario, agent_parameters(config)), problems,
-                        config.warnings);
+  const std::vector<AgentParameters> agents = agents_of(config);
+  std::vector<host::Contradiction> found;
+  for (std::size_t kind = 0; kind < agents.size(); ++kind)
+    for (host::Contradiction& one : sim::contradictions(scenario, agents[kind])) {
+      const bool of_robot = one.key.rfind("robot.", 0) == 0 || one.key.rfind("agent.", 0) == 0;
+      if (!config.fleet.empty() && of_robot) one.key = entry("fleet", kind, ".") + one.key;
+      const bool told = std::any_of(found.begin(), found.end(), [&](const host::Contradiction& other) {
+        return other.key == one.key && other.sentence == one.sentence;
+      });
+      if (!told) found.push_back(std::move(one));
+    }
+  report_contradictions(root, found, problems, config.warnings);
 }
 
 RunConfiguration read_document(YamlNode root, const std::vector<Setting>& settings,
@@ -340,9 +353,9 @@ std::string to_yaml_text(const RunConfiguration& config, bool explains) {
 
 sim::Scenario make_trial(const RunConfiguration& config, int trial) {
   if (config.family.drawn) {
-    return sim::make_scenario(
-        {*config.family.drawn, config.layout, config.robot, config.simulation, config.recording}, config.seed,
-        trial);
+    return sim::make_scenario({*config.family.drawn, config.layout, config.robot, config.simulation,
+                               config.recording, robots_of(config.fleet)},
+                              config.seed, trial);
   }
   sim::Scenario scenario = explicit_scenario(config);
   scenario.trial = trial;
@@ -363,22 +376,23 @@ std::string trials_problem(const RunConfiguration& config, int first, int trials
          to_text(config.layout.window) + " s: trials 0 to " + std::to_string(*count - 1);
 }
 
-std::string identity_text(const RunConfiguration& config) {
-  if (!config.recording && !config.map) return to_yaml_text(config);
-  RunConfiguration placeless = config;
-  if (config.map) placeless.scene.map = to_text(content_of(*config.map));
-  if (config.recording) placeless.crowd = to_text(content_of(*config.recording));
-  return to_yaml_text(placeless);
+std::vector<AgentParameters> agents_of(const RunConfiguration& config) {
+  std::vector<AgentParameters> agents;
+  const auto add = [&](const AgentParameters& agent, const RobotParameters& robot) {
+    AgentParameters& parameters = agents.emplace_back(agent);
+    parameters.robot = robot;
+    const sim::PoseNoiseParameters& noise = config.simulation.pose_noise;
+    ObserverParameters& observer = parameters.tracker.observer;
+    if (observer.pose_sigma == 0.0) observer.pose_sigma = noise.position_sigma;
+    if (observer.heading_sigma == 0.0) observer.heading_sigma = std::min(noise.heading_sigma, 3.0);
+  };
+  for (const RobotKind& kind : config.fleet) add(kind.agent, kind.robot);
+  if (agents.empty()) add(config.agent, config.robot);
+  return agents;
 }
 
 AgentParameters agent_parameters(const RunConfiguration& config) {
-  AgentParameters parameters = config.agent;
-  parameters.robot = config.robot;
-  const sim::PoseNoiseParameters& noise = config.simulation.pose_noise;
-  ObserverParameters& observer = parameters.tracker.observer;
-  if (observer.pose_sigma == 0.0) observer.pose_sigma = noise.position_sigma;
-  if (observer.heading_sigma == 0.0) observer.heading_sigma = std::min(noise.heading_sigma, 3.0);
-  return parameters;
+  return agents_of(config).front();
 }
 
 }  // namespace spf

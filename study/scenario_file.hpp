@@ -51,8 +51,32 @@ struct EnumNames<SceneFamily> {
 inline const Eigen::Vector2d kUnsetPoint =
     Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 inline constexpr Range kCoordinate{-1e5, 1e5};
+/// Kind of a robot that takes the next of the fleet's.
+inline constexpr int kInTurn = -1;
+
+/// One kind of robots in a fleet whose robots are not all alike. What an entry does not set is as the rest of
+/// the file says for all robots; defaults that follow the robot follow this one.
+struct RobotKind {
+  MethodChoice method;
+  RobotParameters robot;
+  AgentParameters agent;  ///< without its robot: that is `robot`
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit_robot(self, visit);
+    PartlyHidden<std::remove_reference_t<decltype((self.agent))>> agent{self.agent, {"robot"}};
+    visit.group("agent", agent);
+  }
+  /// What the defaults of the rest depend on.
+  template <class Self, class Visitor>
+  static void visit_robot(Self& self, Visitor&& visit) {
+    visit("method", self.method, "how robots of this kind plan and track");
+    visit.group("robot", self.robot);
+  }
+};
 
 struct RobotEntry {
+  int kind = kInTurn;
   Eigen::Vector2d start = kUnsetPoint;
   std::optional<double> heading;
   Eigen::Vector2d goal = kUnsetPoint;
@@ -62,6 +86,8 @@ struct RobotEntry {
   static void visit_fields(Self& self, Visitor&& visit) {
     visit.required("start");
     visit.required("goal");
+    visit("kind", self.kind, "1", Range{kInTurn, 9999},
+          "which entry of fleet the robot is of; -1: they are taken in turn");
     visit("start", self.start, "m", kCoordinate, "where the robot's centre is at the beginning");
     visit("heading", self.heading, "rad", Range{-6.3, 6.3},
           "of its x axis at the beginning; none: towards the goal");
@@ -215,6 +241,7 @@ struct RunConfiguration {
   ExplicitScene scene;                                   ///< of an explicit one
   std::shared_ptr<const sim::StaticMap> map;             ///< its map, null = none; not among the fields
   RobotParameters robot;
+  std::vector<RobotKind> fleet;  ///< the kinds of robots; empty: all are alike
   sim::SimulationParameters simulation;
   AgentParameters agent;               ///< without its robot: that is `robot`
   std::vector<InputProblem> warnings;  ///< of settings that contradict each other; not among the fields
@@ -223,6 +250,7 @@ struct RunConfiguration {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit_head(self, visit);
+    visit_fleet(self, visit);
     visit_scene(self, visit);
     visit.group("robot", self.robot);
     visit_parameters(self, visit);
@@ -233,6 +261,8 @@ struct RunConfiguration {
   static void visit_head(Self& self, Visitor&& visit);
   template <class Self, class Visitor>
   static void visit_scene(Self& self, Visitor&& visit);
+  template <class Self, class Visitor>
+  static void visit_fleet(Self& self, Visitor&& visit);
   template <class Self, class Visitor>
   static void visit_parameters(Self& self, Visitor&& visit);
 };
@@ -275,9 +305,12 @@ struct Setting {
 /// Text that is equal for two configurations when all their trials are, wherever their recordings are stored.
 [[nodiscard]] std::string identity_text(const RunConfiguration& config);
 
-/// Parameters of every robot: `agent` with the configuration's robot. An observer whose pose_sigma or
+/// Parameters of the robots: `agent` with the configuration's robot, or those of each kind where there are
+/// kinds. An observer whose pose_sigma or
 /// heading_sigma is 0 (the default, "as exact as the scenario says") is set to the scenario's pose_noise; any
 /// other value is used as written, so that an observer can be misinformed on purpose.
+[[nodiscard]] std::vector<AgentParameters> agents_of(const RunConfiguration& config);
+/// The same where all robots are alike, or of the first kind.
 [[nodiscard]] AgentParameters agent_parameters(const RunConfiguration& config);
 
 // ---- implementation of the field list
@@ -305,6 +338,14 @@ void RunConfiguration::visit_scene(Self& self, Visitor&& visit) {
   if (!self.family.drawn) return;
   PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
   visit.group("layout", layout);
+}
+
+template <class Self, class Visitor>
+void RunConfiguration::visit_fleet(Self& self, Visitor&& visit) {
+  visit.list(
+      "fleet", self.fleet,
+      "kinds of robots, taken in turn: a list of maps with method, robot and agent, as far as they differ "
+      "from those of the file; none: all are alike");
 }
 
 template <class Self, class Visitor>

@@ -100,6 +100,73 @@ TEST(ScenarioFile, MethodSetsAgentParametersAndTheFileOverridesThem) {
   EXPECT_EQ(make_trial(config, 0).robot.radius, 0.25);
 }
 
+TEST(ScenarioFile, AFleetHasKindsOfRobots) {
+  const RunConfiguration config = run_configuration_from_text(
+      "family: swap\n"
+      "robots: 5\n"
+      "robot: {max_speed: 0.8}\n"
+      "agent: {team: {plan_period: 0.2}}\n"
+      "fleet:\n"
+      "  - robot: {radius: 0.15}\n"
+      "  - robot: {drive: car, max_speed: 0.5}\n"
+      "    method: orca\n"
+      "    agent: {team: {priority: 3}}\n",
+      "file.yaml");
+  const sim::Scenario trial = make_trial(config, 0);
+  const std::vector<AgentParameters> agents = agents_of(config);
+  ASSERT_EQ(trial.robots.size(), 5U);
+  ASSERT_EQ(agents.size(), 2U);
+  EXPECT_EQ(trial.robot_of(2).radius, 0.15);  // taken in turn
+  EXPECT_EQ(trial.robot_of(2).max_speed, 0.8);
+  EXPECT_EQ(trial.robot_of(3).drive, DriveType::car);
+  EXPECT_EQ(trial.robot_of(3).max_speed, 0.5);
+  EXPECT_EQ(trial.largest_radius(), RobotParameters{}.radius);
+  EXPECT_EQ(agents[0].team.priority, 0);
+  EXPECT_EQ(agents[1].team.priority, 3);
+  EXPECT_EQ(agents[0].team.plan_period, 0.2);
+  EXPECT_EQ(agents[1].team.plan_period, 0.2);
+  EXPECT_DOUBLE_EQ(agents[0].space_time.margin, 0.5 * SpaceTimeParameters{}.margin);  // follows the robot
+  const auto planner = [](const AgentParameters& agent) { return agent.make_planner(agent); };
+  const AgentParameters orca = with_method({}, "orca");
+  EXPECT_EQ(typeid(*planner(agents[1])), typeid(*planner(orca)));
+  EXPECT_EQ(typeid(*planner(agents[0])), typeid(*planner({})));
+
+  const RunConfiguration again = run_configuration_from_text(to_yaml_text(config), "again.yaml");
+  EXPECT_EQ(to_yaml_text(again), to_yaml_text(config));
+  EXPECT_EQ(agents_of(again)[0].space_time.margin, agents[0].space_time.margin);
+}
+
+TEST(ScenarioFile, ARobotNamesItsKind) {
+  const auto text = [](const std::string& kind) {
+    return "family: explicit\n"
+           "fleet: [{robot: {radius: 0.2}}, {robot: {radius: 0.4}}]\n"
+           "robots:\n"
+           "  - {start: [0, 0], goal: [4, 0]}\n"
+           "  - {start: [0, 0.65], goal: [4, 1], kind: " +
+           kind + "}\n";
+  };
+  const sim::Scenario trial = make_trial(run_configuration_from_text(text("0"), "file.yaml"), 0);
+  EXPECT_EQ(trial.robot_of(0).radius, 0.2);
+  EXPECT_EQ(trial.robot_of(1).radius, 0.2);
+  EXPECT_EQ(make_trial(run_configuration_from_text(text("1"), "file.yaml"), 0).robot_of(1).radius, 0.4);
+  EXPECT_THAT(report(text("2")),
+              "file.yaml:5:44: robots[1].kind = 2 must be below 2, the number of kinds of robots");
+}
+
+TEST(ScenarioFile, RefusesBadKindsOfRobotsWhereTheyStand) {
+  EXPECT_THAT(report("family: swap\nfleet:\n  - robot: {radius: -1}\n"),
+              StartsWith("file.yaml:3:21: fleet[0].robot.radius = -1 must lie in"));
+  EXPECT_THAT(report("family: swap\nfleet:\n  - robot: {radus: 1}\n"),
+              StartsWith("file.yaml:3:13: fleet[0].robot.radus"));
+  EXPECT_THAT(report("family: swap\nfleet:\n  - {method: best}\n"),
+              StartsWith("file.yaml:3:14: fleet[0].method = best must be one of"));
+  EXPECT_EQ(report("family: swap\nfleet: 3\n"), "file.yaml:2:8: fleet = 3 must be a list");
+  // What is wrong for all robots is said once.
+  EXPECT_THAT(report("family: swap\nagent: {team: {priority: -1}}\nfleet: [{}, {}]\n"),
+              StartsWith("file.yaml:2:26: agent.team.priority = -1 must lie in [0, 1e+06]"));
+  EXPECT_THAT(report("family: doors\nfleet: [{}, {robot: {radius: 0.6}}]\n"), HasSubstr("radius 0.6"));
+}
+
 TEST(ScenarioFile, RefusesSettingsThatContradictEachOther) {
   EXPECT_EQ(report("family: t2\ntrial:\n  computing_delay: 0.4\n"),
             "file.yaml:3:20: trial.computing_delay = 0.4 s is longer than agent.team.stale_time = 0.3 s: "
@@ -245,7 +312,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "file.yaml:4:13: robots[1].start = [0.5, 0] is inside robots[0]: centres 0.5 m apart"},
         BadScenario{
             "family: explicit\nrobots:\n  - {start: [0, 0], goal: [5, 0]}\n  - {start: [0, 3], goal: [5, 0]}",
-            "file.yaml:4:27: robots[1].goal = [5, 0] is 0 m from robots[0].goal, less than two radii, 0.6 m"},
+            "file.yaml:4:27: robots[1].goal = [5, 0] is 0 m from robots[0].goal, less than their radii, 0.6 "
+            "m"},
         BadScenario{
             "family: explicit\n" ROBOT
             "border: {low: [-9, -9], high: [9, 9]}\nmoving: [{position: [8.9, 0]}]",
@@ -398,7 +466,8 @@ TEST(ScenarioFiles, CrossingExplainsEveryKey) {
   RunConfiguration config = default_run_configuration(kExplicitScene, RunConfiguration{}.method);
   for (std::string key : keys_of(config)) {
     if (key == "border" || key.find("heading") != std::string::npos)
-      continue;  // absent has a meaning of its own
+      continue;                                  // absent has a meaning of its own
+    if (key.rfind("fleet[]", 0) == 0) continue;  // as the keys without it
     for (std::size_t at = key.find("[]"); at != std::string::npos; at = key.find("[]"))
       key.replace(at, 2, "[0]");
     const std::size_t last = key.find_last_of('.');

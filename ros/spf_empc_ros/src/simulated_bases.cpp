@@ -5,8 +5,10 @@
 
 namespace spf_empc_ros {
 
-SimulatedBases::SimulatedBases(int robots, const spf::RobotParameters& robot, double period)
-    : drive_{robot}, period_{period}, bases_(static_cast<std::size_t>(robots)) {}
+SimulatedBases::SimulatedBases(const std::vector<spf::RobotParameters>& robots, double period)
+    : period_{period} {
+  for (const spf::RobotParameters& robot : robots) bases_.emplace_back(spf::Drive{robot});
+}
 
 void SimulatedBases::command_twist(int robot, const Eigen::Vector3d& twist_body, double time) {
   Base& base = bases_[spf::as_index(robot)];
@@ -14,22 +16,22 @@ void SimulatedBases::command_twist(int robot, const Eigen::Vector3d& twist_body,
     ++base.record.refused;
     return;
   }
-  const spf::DriveInput wanted = drive_.input_for(twist_body);
+  const spf::DriveInput wanted = base.drive.input_for(twist_body);
   constexpr double kRounding = 1e-9;
-  if (drive_.scale_to_limit(wanted) < 1.0 - kRounding) ++base.record.cut;
-  take(base, drive_.saturated(wanted), time);
+  if (base.drive.scale_to_limit(wanted) < 1.0 - kRounding) ++base.record.cut;
+  take(base, base.drive.saturated(wanted), time);
 }
 
 void SimulatedBases::command_wheels(int robot, const std::vector<double>& wheel_speeds, double time) {
   Base& base = bases_[spf::as_index(robot)];
-  if (wheel_speeds.size() != static_cast<std::size_t>(drive_.inputs()) ||
+  if (wheel_speeds.size() != static_cast<std::size_t>(base.drive.inputs()) ||
       !std::all_of(wheel_speeds.begin(), wheel_speeds.end(),
                    [](double speed) { return std::isfinite(speed); })) {
     ++base.record.refused;
     return;
   }
-  const spf::DriveInput wanted = Eigen::Map<const Eigen::VectorXd>(wheel_speeds.data(), drive_.inputs());
-  const spf::DriveInput possible = wanted.cwiseMax(drive_.lower()).cwiseMin(drive_.upper());
+  const spf::DriveInput wanted = Eigen::Map<const Eigen::VectorXd>(wheel_speeds.data(), base.drive.inputs());
+  const spf::DriveInput possible = wanted.cwiseMax(base.drive.lower()).cwiseMin(base.drive.upper());
   if (possible != wanted) ++base.record.cut;
   take(base, possible, time);
 }
@@ -48,7 +50,7 @@ void SimulatedBases::take(Base& base, const spf::DriveInput& wheel_speeds, doubl
 
 spf::DriveInput SimulatedBases::wheels(int robot, double time) const {
   const Base& base = bases_[spf::as_index(robot)];
-  if (!base.commanded || time - base.time > kWatchdog) return drive_.standstill();
+  if (!base.commanded || time - base.time > kWatchdog) return base.drive.standstill();
   return base.wheel_speeds;
 }
 

@@ -189,7 +189,7 @@ void add_static_scene(const Scenario& scenario, WorldMarkers& markers) {
 void add_robot(const World& world, std::size_t robot, WorldMarkers& markers) {
   const RobotTruth& truth = world.robots()[robot];
   const Scenario& scenario = world.scenario();
-  const double radius = scenario.robot.radius;
+  const double radius = truth.radius;
   const int id = static_cast<int>(robot);
   const std_msgs::ColorRGBA paint = truth.wrecked   ? color(0.1F, 0.1F, 0.1F)
                                     : truth.arrived ? color(0.2F, 0.65F, 0.3F)

@@ -23,6 +23,12 @@ spf::sim::Scenario with_scans(spf::sim::Scenario scenario) {
   return scenario;
 }
 
+std::vector<spf::RobotParameters> robots_of(const spf::sim::Scenario& scenario) {
+  std::vector<spf::RobotParameters> robots;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) robots.push_back(scenario.robot_of(i));
+  return robots;
+}
+
 }  // namespace
 
 void Pace::start(double time, double wall) {
@@ -43,7 +49,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const SimulatorConfig& config
       config_{config},
       clock_{epoch},
       world_{with_scans(config.scenario)},
-      bases_{static_cast<int>(config.scenario.robots.size()), config.scenario.robot, config.control_period},
+      bases_{robots_of(config.scenario), config.control_period},
       pace_{config.speed},
       robots_(config.scenario.robots.size()) {
   node_.setCallbackQueue(&queue_);

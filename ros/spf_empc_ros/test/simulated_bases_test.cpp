@@ -11,7 +11,7 @@ namespace {
 constexpr double kPeriod = 0.05;  // [s]
 
 SimulatedBases two_bases() {
-  return {2, spf::RobotParameters{}, kPeriod};
+  return {std::vector<spf::RobotParameters>(2), kPeriod};
 }
 
 TEST(SimulatedBases, TurnAVelocityIntoTheWheelSpeedsThatCauseIt) {

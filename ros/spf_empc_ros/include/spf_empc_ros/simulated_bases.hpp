@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <utility>
 #include <vector>
 
 #include "spf/math/index.hpp"
@@ -26,7 +27,7 @@ class SimulatedBases {
   static constexpr double kWatchdog = 0.5;  ///< [s] without a command until the wheels are stopped
 
   /// `period` [s] is the one commands are expected at.
-  SimulatedBases(int robots, const spf::RobotParameters& robot, double period);
+  SimulatedBases(const std::vector<spf::RobotParameters>& robots, double period);
 
   /// A velocity of the body (x, y, yaw rate) [m/s, m/s, rad/s]. One beyond the wheels' limits is slowed down
   /// as a whole, so that the robot goes where it was told to, only later.
@@ -40,6 +41,8 @@ class SimulatedBases {
 
  private:
   struct Base {
+    explicit Base(spf::Drive of) : drive{std::move(of)} {}
+    spf::Drive drive;
     spf::DriveInput wheel_speeds;
     double time = 0.0;  // [s] of the last command
     bool commanded = false;
@@ -47,7 +50,6 @@ class SimulatedBases {
   };
   void take(Base& base, const spf::DriveInput& wheel_speeds, double time) const;
 
-  spf::Drive drive_;
   double period_;  // [s]
   std::vector<Base> bases_;
 };
