@@ -5,8 +5,8 @@
 // Beside the calls of spf/math/parameters.hpp a visit_fields may use
 //   visit(name, Eigen::Vector2d or std::optional<double>, unit, range, what)
 //   visit(name, std::string, what)
-//   visit.list(name, std::vector<Struct>, what)   entries are maps, read by Struct::visit_fields over those
-//   there visit.values(name, std::vector<double>, unit, range, what)           numbers in brackets
+//   visit.list(name, std::vector<Struct>, what)   entries are maps, each read over the entry that is there
+//   visit.values(name, std::vector<double>, unit, range, what)           numbers in brackets
 //   visit.values(name, std::vector<std::string or enumeration>, what)    words in brackets
 //   visit.optional_group(name, std::optional<Struct>, what)
 //   visit.required(name)                          the key must be there

@@ -75,16 +75,15 @@ std::vector<ParameterRow> all_parameters() {
   for (const ParameterRow& row : rows) known[row.key] = true;
   for (ParameterRow& row : parameter_rows(default_run_configuration(kExplicitScene, standard))) {
     if (row.key == "robots") row.what += " (family: explicit)";
-    if (row.key.starts_with("fleet[].")) continue;
     if (row.key == "robots" || !known.contains(row.key)) of_scene.push_back(std::move(row));
   }
   for (ParameterRow& row : of_scene)
     if (row.value == to_text(kUnsetPoint)) row.value = "required";
-  // What a kind of robots may set has the keys of the file itself.
-  std::erase_if(rows, [](const ParameterRow& row) { return row.key.starts_with("fleet[]."); });
   std::size_t at = 0;
   while (at < rows.size() && section_of(rows[at].key).empty()) ++at;
   rows.insert(rows.begin() + static_cast<std::ptrdiff_t>(at), of_scene.begin(), of_scene.end());
+  // What a kind of robots may set has the keys of the file itself.
+  std::erase_if(rows, [](const ParameterRow& row) { return row.key.starts_with("fleet[]."); });
   return rows;
 }
 

@@ -293,6 +293,10 @@ std::vector<ScenarioProblem> problems_of(const Scenario& scenario) {
 }
 
 double Scenario::largest_radius() const {
+  return sim::largest_radius(robot, fleet);
+}
+
+double largest_radius(const RobotParameters& robot, const std::vector<RobotParameters>& fleet) {
   double largest = fleet.empty() ? robot.radius : 0.0;
   for (const RobotParameters& kind : fleet) largest = std::max(largest, kind.radius);
   return largest;

@@ -85,6 +85,9 @@ struct Scenario {
   [[nodiscard]] double largest_radius() const;
 };
 
+/// [m] of the largest robot of a fleet, which where it is empty is that of `robot`.
+[[nodiscard]] double largest_radius(const RobotParameters& robot, const std::vector<RobotParameters>& fleet);
+
 /// A rule that a scenario breaks. Entries are named as in scenario files.
 struct ScenarioProblem {
   std::string where;  ///< the entry that breaks it: "robots[3].start"

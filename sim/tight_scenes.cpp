@@ -118,8 +118,7 @@ void require_robots_that_fit(const FamilySetup& setup) {
   if (setup.family == Family::clutter && setup.layout.robots != 1)
     throw NoRoom{"the family clutter has 1 robot, not " + std::to_string(setup.layout.robots), "robots"};
   const auto [open, key] = promised_room(setup);
-  double radius = setup.fleet.empty() ? setup.robot.radius : 0.0;
-  for (const RobotParameters& kind : setup.fleet) radius = std::max(radius, kind.radius);
+  const double radius = largest_radius(setup.robot, setup.fleet);
   if (radius < open) return;
   std::ostringstream problem;
   problem << "a robot of radius " << radius << " m must be narrower than that";

@@ -29,7 +29,8 @@ SceneFamily likely_family(const YamlNode& root) {
 }
 
 /// Kinds of robots as they are before their own entries are read: what the file says of all robots, with
-/// defaults for the robot and the method of the entry. Nothing is reported: all is read again.
+/// defaults for the robot and the method of the entry. Nothing is reported: all is read again. The file
+/// without its fleet has been found good, so that what is read for every kind is short.
 void prepare_fleet(const YamlNode& root, RunConfiguration& config) {
   const YamlNode* fleet = root.find("fleet");
   if (fleet == nullptr || fleet->kind != YamlKind::list || fleet->items.size() > kMostEntries) return;
@@ -65,7 +66,7 @@ RunConfiguration read_keys(const YamlNode& root, const MethodTable& methods, Inp
   config.seed = head.seed;
   RunConfiguration::visit_scene(config, reader);
   RunConfiguration::visit_parameters(config, reader);
-  prepare_fleet(root, config);
+  if (problems.empty()) prepare_fleet(root, config);
   RunConfiguration::visit_fleet(config, reader);
   reader.finish();
   return config;

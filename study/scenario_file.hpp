@@ -306,9 +306,9 @@ struct Setting {
 [[nodiscard]] std::string identity_text(const RunConfiguration& config);
 
 /// Parameters of the robots: `agent` with the configuration's robot, or those of each kind where there are
-/// kinds. An observer whose pose_sigma or
-/// heading_sigma is 0 (the default, "as exact as the scenario says") is set to the scenario's pose_noise; any
-/// other value is used as written, so that an observer can be misinformed on purpose.
+/// kinds. An observer whose pose_sigma or heading_sigma is 0 (the default, "as exact as the scenario says")
+/// is set to the scenario's pose_noise; any other value is used as written, so that an observer can be
+/// misinformed on purpose.
 [[nodiscard]] std::vector<AgentParameters> agents_of(const RunConfiguration& config);
 /// The same where all robots are alike, or of the first kind.
 [[nodiscard]] AgentParameters agent_parameters(const RunConfiguration& config);

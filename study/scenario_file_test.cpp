@@ -167,6 +167,15 @@ TEST(ScenarioFile, RefusesBadKindsOfRobotsWhereTheyStand) {
   EXPECT_THAT(report("family: doors\nfleet: [{}, {robot: {radius: 0.6}}]\n"), HasSubstr("radius 0.6"));
 }
 
+TEST(ScenarioFile, ALongFleetInABadFileIsRefusedOnce) {
+  // Were the bad keys read for every kind, this would take minutes.
+  std::string text = "family: swap\nagent: {";
+  for (int i = 0; i < 20000; ++i) text += "key_" + std::to_string(i) + ": 1, ";
+  text += "}\nfleet: [";
+  for (int i = 0; i < 10000; ++i) text += "{}, ";
+  EXPECT_THAT(report(text + "]\n"), HasSubstr("agent.key_0 = 1 is not a known key"));
+}
+
 TEST(ScenarioFile, RefusesSettingsThatContradictEachOther) {
   EXPECT_EQ(report("family: t2\ntrial:\n  computing_delay: 0.4\n"),
             "file.yaml:3:20: trial.computing_delay = 0.4 s is longer than agent.team.stale_time = 0.3 s: "

@@ -2,9 +2,11 @@
 // Prints the parameter file of a scenario's robots: what `config` of planner, tracker and perception is to be
 // when simulator_node runs that scenario and its robots are not the default ones. Where robots are of several
 // kinds (`fleet`), that of the robot NUMBER (default: 0).
+#include <charconv>
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "config/robot_file.hpp"
@@ -21,8 +23,8 @@ constexpr const char* kUsage =
 spf::RobotFile file_of(const spf::RunConfiguration& config, int robot) {
   const spf::sim::Scenario trial = spf::make_trial(config, 0);
   if (robot < 0 || robot >= static_cast<int>(trial.robots.size()))
-    throw std::invalid_argument("--robot " + std::to_string(robot) + " must be below " +
-                                std::to_string(trial.robots.size()) + ", the number of robots");
+    throw std::invalid_argument("--robot " + std::to_string(robot) + " must lie in [0, " +
+                                std::to_string(trial.robots.size() - 1) + "]");
   const std::size_t kind = config.fleet.empty() ? 0 : trial.robots[static_cast<std::size_t>(robot)].kind;
   const spf::AgentParameters agent = spf::agents_of(config)[kind];
   spf::RobotFile file =
@@ -38,6 +40,15 @@ spf::RobotFile file_of(const spf::RunConfiguration& config, int robot) {
   return file;
 }
 
+int number_of(const std::string& text) {
+  int number = -1;
+  const char* end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || read != end)
+    throw std::invalid_argument("--robot " + text + " must be the number of a robot");
+  return number;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -49,8 +60,8 @@ int main(int argc, char** argv) {
     std::vector<spf::Setting> settings;
     int robot = 0;
     for (int i = 2; i < argc; ++i) {
-      if (std::string{argv[i]} == "--robot" && i + 1 < argc)
-        robot = std::stoi(argv[++i]);
+      if (std::string{argv[i]} == "--robot")
+        robot = number_of(i + 1 < argc ? argv[++i] : "");
       else
         settings.push_back({argv[i], "argument " + std::to_string(i)});
     }
