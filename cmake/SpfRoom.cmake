@@ -120,11 +120,12 @@ endforeach()
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${file})
 endfunction()
 
-# Warnings, repeatable floating point (no contraction to FMA), sanitizers.
+# Warnings, repeatable floating point (no contraction to FMA), sanitizers. Code is position independent, so that the rooms can
+# be linked into a shared library, such as a Python module; no function may be replaced there, so that inlining is as usual.
 function(spf_compile_options TARGET STANDARD)
   set_target_properties(${TARGET} PROPERTIES CXX_STANDARD ${STANDARD} CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
   target_compile_options(${TARGET} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off
-    $<$<BOOL:${SPF_WARNINGS_AS_ERRORS}>:-Werror>)
+    -fPIC -fno-semantic-interposition $<$<BOOL:${SPF_WARNINGS_AS_ERRORS}>:-Werror>)
   if(SPF_SANITIZE)
     # Null and misaligned pointers, half of what the sanitizers cost the compiler, are found without: the address sanitizer stops
     # at the first, nothing here casts pointers to make the second, and Eigen asserts that its own are aligned.
