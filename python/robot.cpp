@@ -1,0 +1,142 @@
+#include "python/robot.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace spf::python {
+namespace {
+
+Detection detection_from(const py::handle item, int id) {
+  const std::vector<double> numbers = finite_numbers(item, "detections", 5);
+  Detection detection;
+  detection.id = id;
+  detection.position_world = {numbers[0], numbers[1]};
+  detection.velocity_world = Eigen::Vector2d{numbers[2], numbers[3]};
+  if (numbers[4] <= 0.0) refuse("detections", item, "must end with a radius greater than 0 m");
+  detection.radius = numbers[4];
+  return detection;
+}
+
+Observation make_observation(const py::object& time, const py::list& detections) {
+  Observation observation;
+  observation.time = finite_number(time, "time");
+  for (const py::handle item : detections)
+    observation.detections.push_back(detection_from(item, static_cast<int>(observation.detections.size())));
+  return observation;
+}
+
+py::array_t<double> detections_of(const Observation& self) {
+  py::array_t<double> array({static_cast<py::ssize_t>(self.detections.size()), py::ssize_t{5}});
+  double* to = array.mutable_data();
+  for (const Detection& detection : self.detections) {
+    const Eigen::Vector2d velocity =
+        detection.velocity_world.value_or(Eigen::Vector2d::Constant(std::nan("")));
+    for (const double number : {detection.position_world.x(), detection.position_world.y(), velocity.x(),
+                                velocity.y(), detection.radius})
+      *to++ = number;
+  }
+  return array;
+}
+
+py::object ranges_of(const Observation& self) {
+  if (!self.scan) return py::none();
+  return py::array_t<double>(static_cast<py::ssize_t>(self.scan->ranges.size()), self.scan->ranges.data());
+}
+
+py::dict status_of(const Robot& self) {
+  const host::PlannerStatus status = self.host().planner().status();
+  py::dict found;
+  found["reason"] = status.reason;
+  found["blocking_id"] = status.blocking_id;
+  return found;
+}
+
+py::dict output_of(const Robot& self, const host::RobotOutput& output) {
+  py::dict found;
+  found["planned"] = output.planned;
+  found["wheel_speeds"] = to_array(self.wheel_speeds());
+  if (output.broadcast)
+    found["broadcast"] = *output.broadcast;
+  else
+    found["broadcast"] = py::none();
+  return found;
+}
+
+}  // namespace
+
+Robot::Robot(const sim::Scenario& scene, const AgentParameters& fleet, int number)
+    : host_{number, sim::agent_parameters_for(scene, fleet),
+            sim::host_parameters_for(scene, sim::agent_parameters_for(scene, fleet))},
+      wheel_speeds_{Drive{scene.robot}.standstill()} {
+  const sim::RobotTask& task = scene.robots[static_cast<std::size_t>(number)];
+  host_.planner().set_goal({task.goal_world, task.goal_heading});
+  host_.start(sim::robot_map(scene), task.start, 0.0);
+}
+
+void Robot::add_pose(const py::object& time, const py::object& pose, const py::object& now) {
+  host_.add_pose({finite_number(time, "time"), pose_from(pose, "pose")}, finite_number(now, "now"));
+}
+
+void Robot::add_observation(const Observation& observation, const py::object& now) {
+  host_.add_observation({observation, true}, finite_number(now, "now"));
+}
+
+void Robot::add_message(const HeardMessage& message, const py::object& now) {
+  host_.add_message(message, finite_number(now, "now"));
+}
+
+host::RobotOutput Robot::step(double now) {
+  host::RobotOutput output = host_.step(now);
+  if (output.controlled) wheel_speeds_ = output.wheel_speeds;
+  return output;
+}
+
+void bind_robot(py::module_& module) {
+  py::class_<Observation>(module, "Observation", "What a robot has seen around it at one instant.")
+      .def(py::init(&make_observation), py::arg("time"), py::arg("detections"),
+           "Rows x, y [m], velocity x, y [m/s], radius [m] of what moves, at a time [s].")
+      .def_readonly("time", &Observation::time, "[s]")
+      .def_property_readonly("detections", &detections_of,
+                             "(n, 5): x, y [m], velocity x, y [m/s] (NaN: unknown), radius [m].")
+      .def_property_readonly(
+          "ranges", &ranges_of,
+          "(beams,) [m] of a sweep of the range sensor, infinite without a return; or None.");
+  py::class_<HeardMessage>(module, "Message", "A robot's broadcast to its peers.")
+      .def_property_readonly(
+          "robot_id", [](const HeardMessage& self) { return self->robot_id; }, "Whose it is.")
+      .def_property_readonly(
+          "sent_time", [](const HeardMessage& self) { return self->sent_time; }, "[s]")
+      .def_property_readonly(
+          "trajectory", [](const HeardMessage& self) { return Trajectory{self->trajectory}; },
+          "What it is going to do.");
+  py::class_<Robot>(
+      module, "Robot",
+      "One robot as a whole: localiser, planner and controller with their guards; see World.robot().")
+      .def("add_pose", &Robot::add_pose, py::arg("time"), py::arg("pose"), py::arg("now"),
+           "A pose (3,) measured at a time [s], taken in `now` [s].")
+      .def("add_observation", &Robot::add_observation, py::arg("observation"), py::arg("now"),
+           "What it sees, taken in `now` [s].")
+      .def("add_message", &Robot::add_message, py::arg("message"), py::arg("now"),
+           "What it hears, taken in `now` [s].")
+      .def(
+          "step",
+          [](Robot& self, const py::object& now) {
+            const double time = finite_number(now, "now");
+            host::RobotOutput output;
+            {
+              const py::gil_scoped_release release;
+              output = self.step(time);
+            }
+            return output_of(self, output);
+          },
+          py::arg("now"),
+          "Plans and controls where due, as a dict: wheel_speeds (inputs,) to hold until the next, planned,\n"
+          "broadcast (a Message for the peers, or None).")
+      .def_property_readonly("status", &status_of,
+                             "How it stands, as a dict: reason, blocking_id (-1: none).")
+      .def_property_readonly(
+          "trajectory", [](const Robot& self) { return Trajectory{self.host().agent().committed()}; },
+          "The plan that it follows.");
+}
+
+}  // namespace spf::python

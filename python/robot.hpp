@@ -1,0 +1,29 @@
+// One robot as a whole, host::RobotHost, started at its place in a scene.
+#pragma once
+
+#include <optional>
+
+#include "host/robot_host.hpp"
+#include "python/bind.hpp"
+#include "sim/simulation.hpp"
+
+namespace spf::python {
+
+class Robot {
+ public:
+  Robot(const sim::Scenario& scene, const AgentParameters& agent, int number);
+
+  void add_pose(const py::object& time, const py::object& pose, const py::object& now);
+  void add_observation(const Observation& observation, const py::object& now);
+  void add_message(const HeardMessage& message, const py::object& now);
+  /// The last command is in wheel_speeds().
+  host::RobotOutput step(double now);
+  [[nodiscard]] const DriveInput& wheel_speeds() const { return wheel_speeds_; }
+  [[nodiscard]] const host::RobotHost& host() const { return host_; }
+
+ private:
+  host::RobotHost host_;
+  DriveInput wheel_speeds_;
+};
+
+}  // namespace spf::python

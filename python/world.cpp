@@ -1,0 +1,249 @@
+// The simulated world in the manner of Gymnasium: reset(), step().
+#include "python/world.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "python/robot.hpp"
+#include "python/run.hpp"
+
+namespace spf::python {
+namespace {
+
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+
+class GymWorld {
+ public:
+  GymWorld(const ScenarioFile& scenario, const py::object& trial)
+      : first_{whole_number(trial, "trial", 0, kLastTrial)}, next_{first_}, stepper_{scenario, first_} {
+    inputs_.assign(robots(), Drive{stepper_.world().scenario().robot}.standstill());
+  }
+
+  py::tuple reset(const py::object& seed, const std::optional<py::dict>& options) {
+    if (!seed.is_none())
+      stepper_ = WorldStepper{stepper_.scenario().changed({{"seed=" + value_text(seed), "seed"}}), first_};
+    int trial = next_;
+    for (const auto& [key, value] : options.value_or(py::dict())) {
+      if (std::string{py::str(key)} != "trial") refuse("options", *options, "may hold trial alone");
+      trial = whole_number(py::reinterpret_borrow<py::object>(value), "options[\"trial\"]", 0, kLastTrial);
+    }
+    {
+      const py::gil_scoped_release release;
+      stepper_.reset(trial);
+    }
+    next_ = trial + 1;
+    left_ = distances();
+    return py::make_tuple(observation(), info());
+  }
+
+  py::tuple step(const py::object& action) {
+    if (stepper_.finished())
+      throw std::invalid_argument("step(): the trial has ended; reset() begins another");
+    read_inputs(action);
+    {
+      const py::gil_scoped_release release;
+      stepper_.step(inputs_);
+    }
+    const std::vector<double> left = distances();
+    py::array_t<double> reward(static_cast<py::ssize_t>(left.size()));
+    for (std::size_t i = 0; i < left.size(); ++i) reward.mutable_data()[i] = left_[i] - left[i];
+    left_ = left;
+    const bool finished = stepper_.finished();
+    const bool truncated = finished && stepper_.world().time() >= time_limit_of(stepper_.world().scenario());
+    return py::make_tuple(observation(), reward, finished && !truncated, truncated, info());
+  }
+
+  void broadcast(int robot, const HeardMessage& message) {
+    check_robot(robot);
+    stepper_.broadcast(robot, message);
+  }
+
+  [[nodiscard]] std::unique_ptr<Robot> robot(int number) const {
+    check_robot(number);
+    const sim::Scenario& scene = stepper_.world().scenario();
+    return std::make_unique<Robot>(scene, agent_parameters(stepper_.scenario().config()), number);
+  }
+
+  [[nodiscard]] Observation observation_of(int robot) const {
+    check_robot(robot);
+    return stepper_.observations()[static_cast<std::size_t>(robot)];
+  }
+
+  [[nodiscard]] py::list messages(int robot) const {
+    check_robot(robot);
+    py::list messages;
+    for (const HeardMessage& message : stepper_.messages()[static_cast<std::size_t>(robot)])
+      messages.append(message);
+    return messages;
+  }
+
+  [[nodiscard]] py::dict result() const {
+    const sim::TrialResult result = stepper_.world().result();
+    py::dict found;
+    found["outcome"] = enum_name(result.outcome);
+    found["sim_time"] = result.sim_seconds;
+    found["digest"] = result.digest;
+    found["dynamic_distance"] = result.dynamic_distance;
+    found["dynamic_clearance"] = result.dynamic_clearance;
+    found["static_clearance"] = result.static_clearance;
+    found["peer_clearance"] = result.peer_clearance;
+    return found;
+  }
+
+  [[nodiscard]] std::size_t robots() const { return stepper_.world().robots().size(); }
+  [[nodiscard]] const WorldStepper& stepper() const { return stepper_; }
+
+ private:
+  void check_robot(int robot) const {
+    if (robot < 0 || static_cast<std::size_t>(robot) >= robots())
+      throw std::invalid_argument("robot = " + std::to_string(robot) + " must lie in [0, " +
+                                  std::to_string(robots() - 1) + "]");
+  }
+
+  void read_inputs(const py::object& action) {
+    const Numbers numbers = Numbers::ensure(action);
+    if (!numbers) PyErr_Clear();
+    const py::ssize_t rows = static_cast<py::ssize_t>(robots());
+    const py::ssize_t width = inputs_.front().size();
+    const bool fits = numbers && numbers.ndim() == 2 && numbers.shape(0) == rows && numbers.shape(1) == width;
+    const auto good = [](double number) { return std::abs(number) <= kLargestInput; };
+    if (!fits || !std::all_of(numbers.data(), numbers.data() + numbers.size(), good))
+      refuse("action", action,
+             "must be numbers in [-1000, 1000] of shape (" + std::to_string(rows) + ", " +
+                 std::to_string(width) + ")");
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+      inputs_[i] = Eigen::Map<const Eigen::VectorXd>(numbers.data(static_cast<py::ssize_t>(i), 0), width);
+  }
+
+  [[nodiscard]] std::vector<double> distances() const {
+    std::vector<double> left;
+    for (std::size_t i = 0; i < robots(); ++i)
+      left.push_back((stepper_.world().scenario().robots[i].goal_world -
+                      stepper_.world().robots()[i].pose.position_world)
+                         .norm());
+    return left;
+  }
+
+  [[nodiscard]] py::dict observation() const {
+    const py::ssize_t count = static_cast<py::ssize_t>(robots());
+    py::array_t<double> pose({count, py::ssize_t{3}});
+    py::array_t<double> goal({count, py::ssize_t{2}});
+    for (py::ssize_t i = 0; i < count; ++i) {
+      const Pose2& measured = stepper_.poses()[static_cast<std::size_t>(i)].pose_world;
+      const Eigen::Vector2d& to = stepper_.world().scenario().robots[static_cast<std::size_t>(i)].goal_world;
+      Eigen::Map<Eigen::Vector3d>{pose.mutable_data(i, 0)} << measured.position_world, measured.heading;
+      Eigen::Map<Eigen::Vector2d>{goal.mutable_data(i, 0)} = to;
+    }
+    py::dict found;
+    found["time"] = stepper_.world().time();
+    found["pose"] = pose;
+    found["goal"] = goal;
+    found["obstacles"] = obstacles();
+    found["observed"] = stepper_.observed();
+    return found;
+  }
+
+  /// What the robots have seen, padded with NaN to the most that one has.
+  [[nodiscard]] py::array_t<double> obstacles() const {
+    constexpr py::ssize_t kWidth = 5;
+    std::size_t most = 0;
+    for (const Observation& observation : stepper_.observations())
+      most = std::max(most, observation.detections.size());
+    py::array_t<double> array({static_cast<py::ssize_t>(robots()), static_cast<py::ssize_t>(most), kWidth});
+    double* to = array.mutable_data();
+    std::fill(to, to + array.size(), kAbsent);
+    for (const Observation& observation : stepper_.observations()) {
+      double* row = to;
+      for (const Detection& detection : observation.detections) {
+        const Eigen::Vector2d velocity = detection.velocity_world.value_or(Eigen::Vector2d{kAbsent, kAbsent});
+        for (const double number : {detection.position_world.x(), detection.position_world.y(), velocity.x(),
+                                    velocity.y(), detection.radius})
+          *row++ = number;
+      }
+      to += static_cast<py::ssize_t>(most) * kWidth;
+    }
+    return array;
+  }
+
+  [[nodiscard]] py::dict info() const {
+    const sim::World& world = stepper_.world();
+    const py::ssize_t count = static_cast<py::ssize_t>(robots());
+    py::array_t<double> pose({count, py::ssize_t{3}});
+    py::array_t<double> velocity({count, py::ssize_t{2}});
+    py::array_t<bool> arrived(count);
+    for (py::ssize_t i = 0; i < count; ++i) {
+      const sim::RobotTruth& truth = world.robots()[static_cast<std::size_t>(i)];
+      Eigen::Map<Eigen::Vector3d>{pose.mutable_data(i, 0)} << truth.pose.position_world, truth.pose.heading;
+      Eigen::Map<Eigen::Vector2d>{velocity.mutable_data(i, 0)} = truth.velocity_world;
+      arrived.mutable_data()[i] = truth.arrived;
+    }
+    py::dict found;
+    found["trial"] = stepper_.trial();
+    found["pose"] = pose;
+    found["velocity"] = velocity;
+    found["arrived"] = arrived;
+    found["contacts"] = static_cast<int>(world.contacts().size());
+    return found;
+  }
+
+  static constexpr double kLargestInput = 1000.0;  // [m/s], beyond all wheels
+
+  int first_, next_;
+  WorldStepper stepper_;
+  std::vector<DriveInput> inputs_;
+  std::vector<double> left_;  // [m] straight to the goals
+};
+
+}  // namespace
+
+void bind_world(py::module_& module) {
+  py::class_<GymWorld>(
+      module, "World",
+      "The truth of a trial, step by step in the manner of Gymnasium, all robots at once. A step\n"
+      "leads from one measured pose to the next. N robots, frame: world, SI.")
+      .def(py::init<const ScenarioFile&, const py::object&>(), py::arg("scenario"), py::arg("trial") = 0,
+           "Of a scenario with tracking: full; `trial` is the first that reset() begins.")
+      .def("reset", &GymWorld::reset, py::kw_only(), py::arg("seed") = py::none(),
+           py::arg("options") = py::none(),
+           "Begins a trial and returns (observation, info): {\"trial\": k} in `options`, or the one after "
+           "the\n"
+           "last. `seed` replaces the scenario's. The observation is a dict: time [s]; pose (N, 3) as "
+           "measured,\n"
+           "x, y [m], heading [rad]; goal (N, 2) [m]; obstacles (N, M, 5) as each robot has seen them last, "
+           "x, "
+           "y\n[m], their velocity [m/s], radius [m], NaN where there are fewer; observed, whether they are "
+           "new.\nThe info is the truth: trial; pose (N, 3), velocity (N, 2) [m/s], arrived (N,), contacts.")
+      .def(
+          "step", &GymWorld::step, py::arg("action"),
+          "Holds inputs (N, inputs) until the next pose: rim speeds [m/s] of the wheels, of a car rim speed\n"
+          "and steering angle [rad]. Returns (observation, reward, terminated, truncated, info): the reward\n"
+          "(N,) is by how much [m] each robot came nearer to its goal; terminated by a contact or when all\n"
+          "have arrived, truncated when time is up.")
+      .def("robot", &GymWorld::robot, py::arg("number"),
+           "A new Robot as the scenario has it, at its start: what drives in trials.")
+      .def("observation", &GymWorld::observation_of, py::arg("robot"),
+           "What a robot has seen last, to be handed to Robot.add_observation().")
+      .def("messages", &GymWorld::messages, py::arg("robot"),
+           "What it has heard with this step, a list of Message.")
+      .def("broadcast", &GymWorld::broadcast, py::arg("robot"), py::arg("message"),
+           "Sends a message of a robot, which others hear as the scenario's radio allows.")
+      .def("result", &GymWorld::result,
+           "The result so far as a dict: outcome, sim_time [s], digest, least clearances [m].")
+      .def_property_readonly("robots", &GymWorld::robots, "N, how many there are.")
+      .def_property_readonly(
+          "time", [](const GymWorld& self) { return self.stepper().world().time(); }, "[s]")
+      .def_property_readonly(
+          "finished", [](const GymWorld& self) { return self.stepper().finished(); }, "The trial has ended.")
+      .def_property_readonly(
+          "active",
+          [](const GymWorld& self) {
+            py::list flags;
+            for (const sim::RobotTruth& truth : self.stepper().world().robots()) flags.append(truth.active());
+            return flags;
+          },
+          "By robot: it is neither wrecked nor gone.");
+}
+
+}  // namespace spf::python
