@@ -1,10 +1,10 @@
 """Builds the wheel of the Python package by CMake, for pip (PEP 517). It needs nothing of Python but its library.
 
-`pip install .` calls it; -C key=value goes to CMake as -D key=value.
+`pip install .` calls it. It builds in build/wheel, so that a second call is quick; --config-settings built=FOLDER takes the
+package of a build tree as it is, and other settings go to CMake (--config-settings KEY=VALUE as -D KEY=VALUE).
 """
 import base64
 import hashlib
-import os
 import re
 import subprocess
 import sys
@@ -42,19 +42,25 @@ def tag():
     return f"{python}-{python}-{platform}"
 
 
-def build_package(folder, config_settings):
-    """Configures, builds and installs the package into `folder`."""
-    build = Path(os.environ.get("SPF_PYTHON_BUILD_DIR") or tempfile.mkdtemp(prefix="spf_python_"))
-    options = [f"-D{key}={value}" for key, value in (config_settings or {}).items()]
-    commands = [
-        ["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release",
-         "-D", "CMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-D", "SPF_BUILD_TESTS=OFF", "-D", "SPF_BUILD_PYTHON=ON",
-         "-D", f"Python_EXECUTABLE={sys.executable}", "-D", "SPF_PYTHON_INSTALL_DIR=.", *options],
-        ["cmake", "--build", build, "--target", "spf_python"],
-        ["cmake", "--install", build, "--component", "python", "--prefix", folder],
-    ]
-    for command in commands:
-        subprocess.run(command, check=True)
+def build(settings):
+    """The build tree, with the package built."""
+    tree = ROOT / "build" / "wheel"
+    options = [f"-D{key}={value}" for key, value in settings.items()]
+    subprocess.run(["cmake", "-S", ROOT, "-B", tree, "-G", "Ninja", "-D", "CMAKE_BUILD_TYPE=Release",
+                    "-D", "CMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-D", "SPF_BUILD_TESTS=OFF", "-D", "SPF_BUILD_PYTHON=ON",
+                    "-D", f"Python_EXECUTABLE={sys.executable}", *options], check=True)
+    subprocess.run(["cmake", "--build", tree, "--target", "spf_python"], check=True)
+    return tree
+
+
+def package_files(settings):
+    """Of the installed package, by their paths in the wheel."""
+    settings = dict(settings or {})
+    tree = settings.pop("built", None) or build(settings)
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["cmake", "--install", tree, "--component", "python", "--prefix", folder], check=True)
+        top = next(Path(folder).rglob("spf/__init__.py")).parent.parent
+        return {str(path.relative_to(top)): path.read_bytes() for path in sorted(top.rglob("*")) if path.is_file()}
 
 
 def record_line(name, content):
@@ -65,10 +71,7 @@ def record_line(name, content):
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     info = f"spf-{version()}.dist-info"
     name = f"spf-{version()}-{tag()}.whl"
-    with tempfile.TemporaryDirectory() as folder:
-        build_package(folder, config_settings)
-        files = {str(path.relative_to(folder)): path.read_bytes()
-                 for path in sorted(Path(folder).rglob("*")) if path.is_file()}
+    files = package_files(config_settings)
     files[f"{info}/METADATA"] = metadata().encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: spf\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
