@@ -1,5 +1,6 @@
 // What the parts of the Python module share: their order, and how arrays and errors cross the border.
-// Arrays that come in are copied; what goes out is an array of its own. Frame: world, SI.
+// Arrays that come in are copied; what goes out is an array of its own. Frame: world, SI. Python's lock is
+// released where a trial or a campaign runs, on values that nothing can change; objects that change keep it.
 #pragma once
 
 #include <pybind11/numpy.h>

@@ -53,7 +53,6 @@ std::shared_ptr<CostToGo> make_cost_to_go(const OccupancyMap& map, const py::obj
   const Eigen::Vector2d to = point_from(goal, "goal");
   const Eigen::Vector2d from = point_from(robot, "robot");
   auto guide = std::make_shared<CostToGo>(parameters, radius);
-  const py::gil_scoped_release release;
   guide->update(map, to, from);
   return guide;
 }

@@ -288,7 +288,6 @@ class StandalonePlanner {
     request.world.tracks = &tracks;
     request.world.peers = &nobody;
     PlanResult result;
-    const py::gil_scoped_release release;
     CostToGo guide = planner_->passes_narrow_gaps()
                          ? CostToGo{agent_.guide, agent_.robot.radius, agent_.space_time.static_margin}
                          : CostToGo{agent_.guide, agent_.robot.radius};

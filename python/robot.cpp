@@ -85,6 +85,14 @@ void Robot::add_message(const HeardMessage& message, const py::object& now) {
   host_.add_message(message, finite_number(now, "now"));
 }
 
+host::RobotOutput Robot::live(const PoseMeasurement& pose, const std::vector<HeardMessage>& messages,
+                              const Observation* observation, double now) {
+  host_.add_pose(pose, now);
+  for (const HeardMessage& message : messages) host_.add_message(message, now);
+  if (observation != nullptr) host_.add_observation({*observation, true}, now);
+  return step(now);
+}
+
 host::RobotOutput Robot::step(double now) {
   host::RobotOutput output = host_.step(now);
   if (output.controlled) wheel_speeds_ = output.wheel_speeds;
@@ -122,12 +130,7 @@ void bind_robot(py::module_& module) {
           "step",
           [](Robot& self, const py::object& now) {
             const double time = finite_number(now, "now");
-            host::RobotOutput output;
-            {
-              const py::gil_scoped_release release;
-              output = self.step(time);
-            }
-            return output_of(self, output);
+            return output_of(self, self.step(time));
           },
           py::arg("now"),
           "Plans and controls where due, as a dict: wheel_speeds (inputs,) to hold until the next, planned,\n"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "host/robot_host.hpp"
 #include "python/bind.hpp"
@@ -12,6 +13,10 @@ namespace spf::python {
 class Robot {
  public:
   Robot(const sim::Scenario& scene, const AgentParameters& agent, int number);
+
+  /// Takes in what a stepped world has for it, and steps, without Python.
+  host::RobotOutput live(const PoseMeasurement& pose, const std::vector<HeardMessage>& messages,
+                         const Observation* observation, double now);
 
   void add_pose(const py::object& time, const py::object& pose, const py::object& now);
   void add_observation(const Observation& observation, const py::object& now);

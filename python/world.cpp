@@ -29,10 +29,7 @@ class GymWorld {
       if (std::string{py::str(key)} != "trial") refuse("options", *options, "may hold trial alone");
       trial = whole_number(py::reinterpret_borrow<py::object>(value), "options[\"trial\"]", 0, kLastTrial);
     }
-    {
-      const py::gil_scoped_release release;
-      stepper_.reset(trial);
-    }
+    stepper_.reset(trial);
     next_ = trial + 1;
     left_ = distances();
     return py::make_tuple(observation(), info());
@@ -42,10 +39,7 @@ class GymWorld {
     if (stepper_.finished())
       throw std::invalid_argument("step(): the trial has ended; reset() begins another");
     read_inputs(action);
-    {
-      const py::gil_scoped_release release;
-      stepper_.step(inputs_);
-    }
+    stepper_.step(inputs_);
     const std::vector<double> left = distances();
     py::array_t<double> reward(static_cast<py::ssize_t>(left.size()));
     for (std::size_t i = 0; i < left.size(); ++i) reward.mutable_data()[i] = left_[i] - left[i];
@@ -94,6 +88,7 @@ class GymWorld {
 
   [[nodiscard]] std::size_t robots() const { return stepper_.world().robots().size(); }
   [[nodiscard]] const WorldStepper& stepper() const { return stepper_; }
+  [[nodiscard]] WorldStepper& stepper() { return stepper_; }
 
  private:
   void check_robot(int robot) const {
@@ -196,6 +191,61 @@ class GymWorld {
   std::vector<double> left_;  // [m] straight to the goals
 };
 
+/// All robots of a world, as the program drives them.
+class Fleet {
+ public:
+  explicit Fleet(GymWorld& world) : world_{world} { begin(); }
+
+  py::array_t<double> act() {
+    think();
+    const py::ssize_t width = robots_.front().wheel_speeds().size();
+    py::array_t<double> action({static_cast<py::ssize_t>(robots_.size()), width});
+    for (std::size_t i = 0; i < robots_.size(); ++i)
+      Eigen::Map<Eigen::VectorXd>{action.mutable_data(static_cast<py::ssize_t>(i), 0), width} =
+          robots_[i].wheel_speeds();
+    return action;
+  }
+
+ private:
+  void begin() {
+    const WorldStepper& stepper = world_.stepper();
+    const AgentParameters agent = agent_parameters(stepper.scenario().config());
+    robots_.clear();
+    robots_.reserve(world_.robots());
+    for (std::size_t i = 0; i < world_.robots(); ++i)
+      robots_.emplace_back(stepper.world().scenario(), agent, static_cast<int>(i));
+    begun_ = stepper.beginnings();
+  }
+
+  void think() {
+    WorldStepper& stepper = world_.stepper();
+    if (begun_ != stepper.beginnings()) begin();
+    std::vector<std::pair<int, HeardMessage>> said;
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      if (!stepper.world().robots()[i].active()) continue;
+      const Observation* seen = stepper.observed() ? &stepper.observations()[i] : nullptr;
+      const host::RobotOutput output =
+          robots_[i].live(stepper.poses()[i], stepper.messages()[i], seen, stepper.world().time());
+      if (output.broadcast) said.emplace_back(static_cast<int>(i), *output.broadcast);
+    }
+    for (const auto& [robot, message] : said) stepper.broadcast(robot, message);
+  }
+
+  GymWorld& world_;
+  std::vector<Robot> robots_;
+  int begun_ = 0;
+};
+
+void bind_fleet(py::module_& module) {
+  py::class_<Fleet>(module, "Fleet", "All robots of a World, as the program drives them.")
+      .def(py::init<GymWorld&>(), py::arg("world"), py::keep_alive<1, 2>(),
+           "New robots at their starts, and again after each reset().")
+      .def("act", &Fleet::act,
+           "Once before each step: every robot senses, hears, plans and speaks. Returns the action (N, "
+           "inputs)\n"
+           "for step(), in which you may replace what some robots do.");
+}
+
 }  // namespace
 
 void bind_world(py::module_& module) {
@@ -244,6 +294,7 @@ void bind_world(py::module_& module) {
             return flags;
           },
           "By robot: it is neither wrecked nor gone.");
+  bind_fleet(module);
 }
 
 }  // namespace spf::python

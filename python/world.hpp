@@ -25,6 +25,8 @@ class WorldStepper {
   [[nodiscard]] const sim::World& world() const { return *world_; }
   [[nodiscard]] const ScenarioFile& scenario() const { return scenario_; }
   [[nodiscard]] int trial() const { return trial_; }
+  /// How often it has begun.
+  [[nodiscard]] int beginnings() const { return beginnings_; }
   [[nodiscard]] bool finished() const { return world_->finished(); }
 
   // As last sensed, by robot.
@@ -39,6 +41,7 @@ class WorldStepper {
 
   ScenarioFile scenario_;
   int trial_ = 0;
+  int beginnings_ = 0;
   std::optional<sim::World> world_;
   std::optional<sim::Radio> radio_;
   std::vector<PoseMeasurement> poses_;

@@ -18,6 +18,7 @@ void WorldStepper::reset(int trial) {
     throw std::invalid_argument("trial = " + std::to_string(trial) + ": " + problem);
   const sim::Scenario scene = make_trial(scenario_.config(), trial);
   trial_ = trial;
+  ++beginnings_;
   world_.emplace(scene);
   radio_.emplace(scene);
   poses_.assign(scene.robots.size(), {});

@@ -1501,3 +1501,10 @@ class World:
     @property
     def active(self) -> list[bool]:
         """By robot: it is neither wrecked nor gone."""
+class Fleet:
+    """All robots of a World, as the program drives them."""
+    def __init__(self, world: World) -> None:
+        """New robots at their starts, and again after each reset()."""
+    def act(self) -> NDArray[np.float64]:
+        """Once before each step: every robot senses, hears, plans and speaks. Returns the action (N, inputs)
+        for step(), in which you may replace what some robots do."""

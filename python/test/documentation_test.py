@@ -17,7 +17,7 @@ def test_a_block_runs(number, monkeypatch):
 
 
 def test_there_are_blocks_and_the_classes_exist():
-    assert len(BLOCKS) == 8
+    assert len(BLOCKS) == 9
     rows = re.findall(r"^\| (`\w+`(?:, `\w+`)*) \|", PAGE, re.MULTILINE)
     names = [name for row in rows for name in re.findall(r"\w+", row)]
     assert len(names) > 8 and all(hasattr(spf, name) for name in names)

@@ -46,6 +46,32 @@ def test_robots_of_python_move_as_in_a_trial_bit_for_bit():
     assert result["dynamic_distance"] == trial.dynamic_distance
 
 
+def test_a_fleet_drives_itself_trial_after_trial():
+    world = spf.World(T2)
+    fleet = spf.Fleet(world)
+    for number in (3, 0):
+        world.reset(options={"trial": number})
+        while not world.finished:
+            world.step(fleet.act())
+        assert f"{world.result()['digest']:016x}" == T2.run(number).digest
+
+
+def test_a_robot_of_a_fleet_can_be_driven_otherwise():
+    world = spf.World(T2)
+    fleet = spf.Fleet(world)
+    del fleet
+    fleet = spf.Fleet(spf.World(T2))  # the world lives as long as its fleet
+    assert fleet.act().shape == (5, 3)
+    fleet = spf.Fleet(world)
+    start = world.reset()[1]["pose"]
+    for _ in range(100):
+        action = fleet.act()
+        action[0] = 0.0
+        *_, info = world.step(action)
+    moved = np.linalg.norm(info["pose"][:, :2] - start[:, :2], axis=1)
+    assert moved[0] < 1e-6 and moved[1:].min() > 0.3
+
+
 def test_shapes_and_rewards():
     world = spf.World(T2)
     observation, info = world.reset()
