@@ -138,8 +138,12 @@ void bind_robot(py::module_& module) {
       .def_property_readonly("status", &status_of,
                              "How it stands, as a dict: reason, blocking_id (-1: none).")
       .def_property_readonly(
-          "trajectory", [](const Robot& self) { return Trajectory{self.host().agent().committed()}; },
-          "The plan that it follows.");
+          "trajectory",
+          [](const Robot& self) {
+            const RobotAgent* agent = self.host().planner().agent();
+            return agent == nullptr ? std::nullopt : std::optional<Trajectory>{agent->committed()};
+          },
+          "The plan that it follows; None while it starts afresh, as after a jump of its clock.");
 }
 
 }  // namespace spf::python

@@ -1461,8 +1461,8 @@ class Robot:
     def status(self) -> dict[str, Any]:
         """How it stands, as a dict: reason, blocking_id (-1: none)."""
     @property
-    def trajectory(self) -> Trajectory:
-        """The plan that it follows."""
+    def trajectory(self) -> Trajectory | None:
+        """The plan that it follows; None while it starts afresh, as after a jump of its clock."""
 class World:
     """The truth of a trial, step by step in the manner of Gymnasium, all robots at once. A step
     leads from one measured pose to the next. N robots, frame: world, SI."""

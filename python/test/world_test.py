@@ -72,6 +72,14 @@ def test_a_robot_of_a_fleet_can_be_driven_otherwise():
     assert moved[0] < 1e-6 and moved[1:].min() > 0.3
 
 
+def test_a_robot_starts_afresh_after_a_jump_of_its_clock():
+    robot = spf.World(T2).robot(0)
+    robot.step(0.0)
+    assert len(robot.trajectory) > 0
+    robot.step(1e6)
+    assert robot.trajectory is None and robot.status["reason"] != "moving"
+
+
 def test_shapes_and_rewards():
     world = spf.World(T2)
     observation, info = world.reset()
