@@ -29,7 +29,7 @@ spf_precompiled(spf_headers_17 17 LIBRARIES Eigen3::Eigen HEADERS ${standard_hea
 set(host_headers "")
 set(program_headers "")
 set(host_libraries "")
-if(SPF_BUILD_APPS OR BUILD_ROS)
+if(SPF_BUILD_APPS OR BUILD_ROS OR BUILD_ROS2)
   set(host_headers <filesystem> <fstream> <iostream>)
   if(SPF_BUILD_APPS)
     find_package(nlohmann_json 3.11 REQUIRED)

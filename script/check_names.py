@@ -9,7 +9,7 @@ from pathlib import Path
 
 from check_limits import files_of, main, tags_of
 
-ROOMS_WITHIN = ("spf", "apps")  # folders whose folders are rooms; elsewhere each folder is one
+ROOMS_WITHIN = ("spf", "apps", "ros2")  # folders whose folders are rooms; elsewhere each folder is one
 NOT_BATCHED = ("bench", "fuzz", "examples", "python", "ros")
 
 
