@@ -120,14 +120,14 @@ TEST(Cdr, GoesThereAndBack) {
   EXPECT_EQ(read.state, 3);
   EXPECT_EQ(read.durations, trajectory.durations);
   EXPECT_EQ(read.heading_phases, trajectory.heading_phases);
-  EXPECT_EQ(to_cdr(read), to_cdr(trajectory));
+  EXPECT_EQ(read, trajectory);
 
   visualization_msgs::MarkerArray markers;
   markers.markers.resize(2);
   markers.markers[1].points.resize(3);
   markers.markers[1].text = "robot";
   markers.markers[1].mesh_file.data = {1, 2, 3};
-  EXPECT_EQ(to_cdr(read_well<visualization_msgs::MarkerArray>(to_cdr(markers))), to_cdr(markers));
+  EXPECT_EQ(read_well<visualization_msgs::MarkerArray>(to_cdr(markers)), markers);
 
   rcl_interfaces::ParameterValue value;
   value.bool_array_value = {true, false, true};

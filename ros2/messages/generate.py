@@ -3,7 +3,7 @@
 
 Each FOLDER holds packages, or is one: PACKAGE/msg/*.msg, srv/*.srv, action/*.action. For each definition OUT gets
 PACKAGE/Name.hpp with the structs of namespace ros2::PACKAGE: members with defaults, constants, the type's name, its
-type hash (RIHS01), and `visit_fields`. Of services there are Name_Request and Name_Response; of actions the parts that
+type hash (RIHS01), `visit_fields` and equality. Of services there are Name_Request and Name_Response; of actions the parts that
 travel (Name_SendGoal_Request, ...). A definition that is not understood ends the run with FILE:LINE and a sentence.
 """
 import hashlib
@@ -194,7 +194,9 @@ def cpp_struct(struct, structs):
         lines.append(f"  {cpp_type(item)} {item.name}{{{default}}};")
     lines += ["", "  template <class Self, class Visitor>", "  static void visit_fields(Self& self, Visitor& visit) {"]
     lines += [f"    visit(\"{item.name}\", self.{item.name});" for item in fields_of(struct)]
-    return lines + ["  }", "};"]
+    same = " && ".join(f"one.{item.name} == other.{item.name}" for item in fields_of(struct))
+    return lines + ["  }", f"  friend bool operator==(const {struct.name}& one, const {struct.name}& other) {{",
+                    f"    return {same};", "  }", "};"]
 
 
 def cpp_header(path, own, structs):

@@ -7,9 +7,22 @@
 namespace ros2 {
 namespace {
 
-constexpr double kLongestWait = 0.1;  // [s] so that whoever ends a program by a flag is heard
+constexpr double kLongestWait = 0.1;  // [s] so that what is to be looked at `always` is
 
 }  // namespace
+
+StopSwitch::StopSwitch(const Participant& participant)
+    : condition_{dds_create_guardcondition(participant.entity()), "guard condition"} {}
+
+void StopSwitch::stop() {
+  dds_set_guardcondition(condition_.get(), true);
+}
+
+bool StopSwitch::stopped() const {
+  bool stopped = false;
+  dds_read_guardcondition(condition_.get(), &stopped);
+  return stopped;
+}
 
 Executor::Executor(const Participant& participant)
     : waitset_{dds_create_waitset(participant.entity()), "waitset"} {}
@@ -101,6 +114,11 @@ bool Executor::spin_until(const std::function<bool()>& done, double at_most) {
     spin_once(left);
   }
   return true;
+}
+
+void Executor::spin(const StopSwitch& until) {
+  const Registration woken = when(until.entity(), [] {});
+  while (!until.stopped()) spin_once();
 }
 
 }  // namespace ros2

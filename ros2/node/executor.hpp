@@ -10,6 +10,18 @@
 
 namespace ros2 {
 
+/// Ends executors, from any thread.
+class StopSwitch {
+ public:
+  explicit StopSwitch(const Participant& participant);
+  void stop();
+  [[nodiscard]] bool stopped() const;
+  [[nodiscard]] dds_entity_t entity() const { return condition_.get(); }
+
+ private:
+  Entity condition_;
+};
+
 class Executor {
  public:
   using Callback = std::function<void()>;
@@ -52,6 +64,8 @@ class Executor {
   void spin_once(double at_most = 0.1);
   /// Until `done` says so (true), or `at_most` [s] are over (false).
   bool spin_until(const std::function<bool()>& done, double at_most);
+  /// Until somebody stops it.
+  void spin(const StopSwitch& until);
 
  private:
   struct Item {

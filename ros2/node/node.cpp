@@ -81,14 +81,15 @@ std::shared_ptr<Writer> Node::add_writer(const DdsTopic& topic, const Qos& qos) 
   return telling_.back()->writer;
 }
 
-void Node::add_reader(const DdsTopic& topic, const Qos& qos, Take take) {
+const Reader& Node::add_reader(const DdsTopic& topic, const Qos& qos, Take take, Mismatch mismatch) {
   const std::string name = topic.name.substr(2);
   auto listening =
       std::make_unique<Listening>(Listening{Reader{context_.participant.entity(), topic, qos}, {}, {}});
   Reader& reader = listening->reader;
   dds_set_status_mask(reader.entity(), DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS);
-  listening->on_mismatch = executor_.when(reader.entity(), [this, &reader, name] {
-    if (const std::string policy = reader.take_mismatch(); !policy.empty())
+  listening->on_mismatch = executor_.when(reader.entity(), [this, &reader, name, mismatch] {
+    const std::string policy = reader.take_mismatch();
+    if (!policy.empty() && mismatch == Mismatch::told)
       log_.warn(name + ": somebody publishes with an incompatible QoS and is not heard; policy: " + policy);
   });
   listening->on_data = executor_.when(reader.condition(), [this, &reader, name, take = std::move(take)] {
@@ -99,6 +100,7 @@ void Node::add_reader(const DdsTopic& topic, const Qos& qos, Take take) {
   context_.graph.add_reader(number_, reader.gid());
   context_.graph.announce();
   listening_.push_back(std::move(listening));
+  return reader;
 }
 
 void Node::add_server(const std::string& /*name*/, const TopicPair& topics, const Qos& qos, Serve serve) {

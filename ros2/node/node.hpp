@@ -89,6 +89,7 @@ class Node {
   [[nodiscard]] const NodeName& name() const { return name_; }
   [[nodiscard]] const Clock& clock() const { return clock_; }
   [[nodiscard]] Parameters& parameters() { return parameters_; }
+  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
   [[nodiscard]] Log& log() { return log_; }
   /// The whole name of a topic or service.
   [[nodiscard]] std::string resolve(const std::string& name) const;
@@ -99,22 +100,19 @@ class Node {
   }
 
   /// `callback` is called with a message, or with a message and the handle of its writer. What cannot be read
-  /// is warned of and left out.
+  /// is warned of and left out. The reader lives as long as the node.
   template <class Message, class Callback>
-  void subscribe(const std::string& topic, const Qos& qos, Callback callback) {
-    add_reader(message_topic<Message>(resolve(topic)), qos,
-               [callback = std::move(callback)](ByteView bytes, dds_instance_handle_t writer) mutable {
-                 Message message;
-                 std::string fault;
-                 if (!from_cdr(bytes, message, fault)) return fault;
-                 if constexpr (std::is_invocable_v<Callback&, const Message&, dds_instance_handle_t>) {
-                   callback(message, writer);
-                 } else {
-                   (void)writer;
-                   callback(message);
-                 }
-                 return fault;
-               });
+  const Reader& subscribe(const std::string& topic, const Qos& qos, Callback callback) {
+    return add_reader(message_topic<Message>(resolve(topic)), qos, taker<Message>(std::move(callback)),
+                      Mismatch::told);
+  }
+  /// Hears publishers that keep their last message for those who come later, and others that do not. The
+  /// callback may be called twice with one message.
+  template <class Message, class Callback>
+  void subscribe_to_state(const std::string& topic, Callback callback) {
+    const DdsTopic dds = message_topic<Message>(resolve(topic));
+    add_reader(dds, Qos::keep_last(10), taker<Message>(callback), Mismatch::told);
+    add_reader(dds, Qos::latched(), taker<Message>(callback), Mismatch::expected);
   }
 
   /// `callback` is called as (const Request&, const Reply<Response>&) and may keep the reply for later.
@@ -184,13 +182,30 @@ class Node {
     Executor::Registration on_mismatch;
   };
 
+  enum class Mismatch { told, expected };
+
+  template <class Message, class Callback>
+  [[nodiscard]] static Take taker(Callback callback) {
+    return [callback = std::move(callback)](ByteView bytes, dds_instance_handle_t writer) mutable {
+      Message message;
+      std::string fault;
+      if (!from_cdr(bytes, message, fault)) return fault;
+      if constexpr (std::is_invocable_v<Callback&, const Message&, dds_instance_handle_t>) {
+        callback(message, writer);
+      } else {
+        (void)writer;
+        callback(message);
+      }
+      return fault;
+    };
+  }
   template <class Request, class Response>
   [[nodiscard]] TopicPair service_topics(const std::string& name, const char* key) const {
     const std::string id = key + new_service_id(context_.participant) + ";";
     return {request_topic<Request>(name, id), reply_topic<Response>(name, id)};
   }
   [[nodiscard]] std::shared_ptr<Writer> add_writer(const DdsTopic& topic, const Qos& qos);
-  void add_reader(const DdsTopic& topic, const Qos& qos, Take take);
+  const Reader& add_reader(const DdsTopic& topic, const Qos& qos, Take take, Mismatch mismatch);
   void add_server(const std::string& name, const TopicPair& topics, const Qos& qos, Serve serve);
   [[nodiscard]] std::unique_ptr<ClientEndpoints> make_client(const TopicPair& topics, const Qos& qos,
                                                              ClientEndpoints::OnReply on_reply);

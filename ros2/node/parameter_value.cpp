@@ -27,12 +27,12 @@ std::string text_of(std::int64_t value) {
 std::string text_of(std::uint8_t value) {
   return std::to_string(value);
 }
-/// The shortest that reads back as the same number, and as no integer.
+/// Short, reads back as the same number, and as no integer.
 std::string text_of(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
   char text[32];
-  for (int digits = 1; digits <= 17; ++digits) {
+  for (int digits = 6; digits <= 17; ++digits) {
     std::snprintf(text, sizeof text, "%.*g", digits, value);
     if (std::strtod(text, nullptr) == value) break;
   }

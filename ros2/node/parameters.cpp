@@ -25,6 +25,10 @@ std::optional<double> number_of(const ParameterValue& value) {
   return std::nullopt;
 }
 
+std::string limit_text(double limit, std::uint8_t type) {
+  return type == Type::PARAMETER_INTEGER ? std::to_string(std::llround(limit)) : to_text(limit);
+}
+
 /// Why a value of the right kind of type is none for this parameter; empty when it is.
 std::string fault_of(const std::string& name, const ParameterValue& value, std::uint8_t type,
                      const ParameterDescription& description) {
@@ -34,8 +38,8 @@ std::string fault_of(const std::string& name, const ParameterValue& value, std::
   const std::optional<double> number = number_of(value);
   if (description.range && number &&
       !(description.range->low <= *number && *number <= description.range->high))
-    return name + " = " + to_text(value) + " must lie in [" + to_text(description.range->low) + ", " +
-           to_text(description.range->high) + "]";
+    return name + " = " + to_text(value) + " must lie in [" + limit_text(description.range->low, type) +
+           ", " + limit_text(description.range->high, type) + "]";
   return {};
 }
 

@@ -94,6 +94,7 @@ class Reader {
   [[nodiscard]] Gid gid() const { return reader_.gid(); }
   [[nodiscard]] dds_entity_t entity() const { return reader_.get(); }
   [[nodiscard]] dds_entity_t condition() const { return condition_.get(); }
+  /// Writers that reach it now.
   [[nodiscard]] int matched() const;
   /// USER_DATA of a writer by its handle; empty when it is gone.
   [[nodiscard]] std::string user_data_of(dds_instance_handle_t writer) const;
