@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """generate.py OUT FOLDER... : C++ structs from the interface definitions of ROS 2 packages.
 
-Each FOLDER holds packages, or is one: PACKAGE/msg/*.msg, srv/*.srv, action/*.action. For each definition OUT gets
-PACKAGE/Name.hpp with the structs of namespace ros2::PACKAGE: members with defaults, constants, the type's name, its
+Each FOLDER holds packages, or is one: PACKAGE/msg/*.msg, srv/*.srv, action/*.action. What a distribution of ROS 2 defines in
+another way is in DISTRIBUTION/PACKAGE/..., and gives OUT/DISTRIBUTION/PACKAGE/Name.hpp with namespace
+ros2::DISTRIBUTION::PACKAGE. For each definition OUT gets PACKAGE/Name.hpp with the structs of namespace ros2::PACKAGE: members with defaults, constants, the type's name, its
 type hash (RIHS01), `visit_fields` and equality. Of services there are Name_Request and Name_Response; of actions the parts that
-travel (Name_SendGoal_Request, ...). A definition that is not understood ends the run with FILE:LINE and a sentence.
+travel (Name_SendGoal_Request, ...), and Name, which holds their names together. A definition that is not understood ends the run with FILE:LINE and a sentence.
 """
 import hashlib
 import json
@@ -162,8 +163,11 @@ def type_hash(struct, structs):
 
 # ---- C++
 
-def cpp_type(item):
+def cpp_type(item, own):
+    """`own`: the types of the same definition, whose namespace needs no name."""
     inner = PRIMITIVES[item.kind][0] if item.kind in PRIMITIVES else "::ros2::{0}::{2}".format(*item.kind.split("/"))
+    if item.kind in own:
+        inner = item.kind.split("/")[2]
     if item.array == "none":
         return inner
     return f"std::array<{inner}, {item.capacity}>" if item.array == "fixed" else f"std::vector<{inner}>"
@@ -179,7 +183,13 @@ def literal(kind, value):
     return value
 
 
-def cpp_struct(struct, structs):
+def cpp_action(name):
+    parts = ("Goal", "Result", "Feedback", "SendGoal_Request", "SendGoal_Response", "GetResult_Request",
+             "GetResult_Response", "FeedbackMessage")
+    return [f"struct {name} {{", *[f"  using {part.replace('_', '')} = {name}_{part};" for part in parts], "};", ""]
+
+
+def cpp_struct(struct, own, structs):
     lines = [f"struct {struct.name} {{",
              f"  static constexpr const char* kPackage = \"{struct.package}\";",
              f"  static constexpr const char* kKind = \"{struct.kind}\";",
@@ -191,7 +201,7 @@ def cpp_struct(struct, structs):
     lines.append("")
     for item in fields_of(struct):
         default = literal(item.kind, item.default) if item.default else ""
-        lines.append(f"  {cpp_type(item)} {item.name}{{{default}}};")
+        lines.append(f"  {cpp_type(item, own)} {item.name}{{{default}}};")
     lines += ["", "  template <class Self, class Visitor>", "  static void visit_fields(Self& self, Visitor& visit) {"]
     lines += [f"    visit(\"{item.name}\", self.{item.name});" for item in fields_of(struct)]
     same = " && ".join(f"one.{item.name} == other.{item.name}" for item in fields_of(struct))
@@ -199,25 +209,29 @@ def cpp_struct(struct, structs):
                     f"    return {same};", "  }", "};"]
 
 
-def cpp_header(path, own, structs):
+def cpp_header(path, own, distribution, structs):
     package = own[0].package
+    namespace = "::".join(part for part in ("ros2", distribution, package) if part)
     used = {item.kind for struct in own for item in struct.fields if item.kind not in PRIMITIVES}
     used -= {struct.full_name for struct in own}
     includes = sorted("ros2_messages/{0}/{2}.hpp".format(*name.split("/")) for name in used)
     lines = [f"// Made from {package}/{path.parent.name}/{path.name} by ros2/messages/generate.py.", "#pragma once", "",
              *[f"#include <{name}>" for name in ("array", "cstdint", "string", "vector")], "",
-             *[f"#include <{name}>" for name in includes], "", f"namespace ros2::{package} {{", ""]
+             *[f"#include <{name}>" for name in includes], "", f"namespace {namespace} {{", ""]
     for struct in own:
-        lines += [*cpp_struct(struct, structs), ""]
-    return "\n".join([*lines, f"}}  // namespace ros2::{package}", ""])
+        lines += [*cpp_struct(struct, {other.full_name for other in own}, structs), ""]
+    if path.suffix == ".action":
+        lines += cpp_action(path.stem)
+    return "\n".join([*lines, f"}}  // namespace {namespace}", ""])
 
 
 def definitions(folders):
-    """All definition files below the folders, with their packages."""
+    """All definition files below the folders, with their packages and distributions."""
     for folder in folders:
         for suffix in ("msg", "srv", "action"):
             for path in sorted(Path(folder).rglob(f"{suffix}/*.{suffix}")):
-                yield path, path.parent.parent.name
+                parts = path.relative_to(folder).parts
+                yield path, path.parent.parent.name, parts[0] if len(parts) == 4 else ""
 
 
 def write_if_changed(path, text):
@@ -232,10 +246,13 @@ def main(arguments):
         print(__doc__, file=sys.stderr)
         return 2
     try:
-        files = [(path, structs_of(path, package)) for path, package in definitions(arguments[1:])]
-        structs = {struct.full_name: struct for _, own in files for struct in own}
-        for path, own in files:
-            write_if_changed(Path(arguments[0], own[0].package, path.stem + ".hpp"), cpp_header(path, own, structs))
+        files = [(path, structs_of(path, package), distribution)
+                 for path, package, distribution in definitions(arguments[1:])]
+        common = {struct.full_name: struct for _, own, distribution in files if not distribution for struct in own}
+        for path, own, distribution in files:
+            structs = {**common, **{struct.full_name: struct for struct in own}}
+            write_if_changed(Path(arguments[0], distribution, own[0].package, path.stem + ".hpp"),
+                             cpp_header(path, own, distribution, structs))
     except DefinitionError as error:
         print(error, file=sys.stderr)
         return 1

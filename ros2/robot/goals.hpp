@@ -1,14 +1,17 @@
-// The robot's goals on ROS 2: the topics `goal`, `goal_pose` (as RViz names it) and `cancel`. There is one
-// goal at a time, and a newer one replaces it. What becomes of it is host::GoalSupervisor's word.
+// The robot's goals on ROS 2: the action `navigate_to_pose`, and the topics `goal`, `goal_pose` (as RViz
+// names it) and `cancel`. There is one goal at a time, and a newer one replaces it. What becomes of it is
+// host::GoalSupervisor's word; here it is told to whoever sent it.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <ros2_messages/geometry_msgs/PoseStamped.hpp>
 #include <string>
 
 #include "host/goal_supervisor.hpp"
 #include "host/split_host.hpp"
 #include "ros2/robot/frames.hpp"
+#include "ros2/robot/navigate_server.hpp"
 #include "ros2/robot/robot_config.hpp"
 
 namespace spf_ros2 {
@@ -24,24 +27,31 @@ class Goals {
   Goals(const Goals&) = delete;
   Goals& operator=(const Goals&) = delete;
 
-  void reconfigure(const spf::AgentParameters& agent, const spf::host::HostParameters& host) {
-    supervisor_.reconfigure(agent, host);
-  }
+  /// Tolerances at once, the patience for the goals to come.
+  void reconfigure(const spf::AgentParameters& agent, const spf::host::HostParameters& host);
   /// After every step of the planner, at the same time [s].
   void step(double now);
 
   [[nodiscard]] spf::host::GoalOutcome outcome() const { return supervisor_.outcome(); }
 
  private:
-  void on_goal(const ros2::geometry_msgs::PoseStamped& pose);
-  void on_cancel();
+  /// False, and told, when it is refused; the goal before it then stays. It is given up after `patience` [s]
+  /// without a path.
+  bool pursue(const ros2::geometry_msgs::PoseStamped& pose, double patience);
+  void take_away(spf::host::GoalOutcome outcome);
+  void cancel();
+  void conclude();
+  void tell_feedback(double distance, double now);
 
   ros2::Node& node_;
   std::string frame_;
   spf::host::PlannerProcess& host_;
   const Frames& frames_;
   Refuse refuse_;
+  double patience_;                           // [s]
+  double begun_ = 0.0, next_feedback_ = 0.0;  // [s]
   spf::host::GoalSupervisor supervisor_;
+  std::unique_ptr<NavigateServer> server_;
 };
 
 }  // namespace spf_ros2

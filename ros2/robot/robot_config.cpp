@@ -1,5 +1,6 @@
 #include "ros2/robot/robot_config.hpp"
 
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@ RobotConfig read_config(ros2::Node& node) {
     return node.parameters().declare_as(name, value, {what, true, {}, {}});
   };
   RobotConfig config;
+  if (const char* distribution = std::getenv("ROS_DISTRO")) config.distribution = distribution;
   const ros2::ParameterRange numbers{0.0, std::numeric_limits<int>::max()};
   config.robot_id = static_cast<int>(node.parameters().declare_as(
       "robot_id", std::int64_t{0}, {"number and rank of the robot: smaller goes first", true, numbers, {}}));

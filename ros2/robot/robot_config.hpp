@@ -13,6 +13,7 @@ struct RobotConfig {
   std::string frame = "map";  ///< the fleet's
   std::string base_frame;     ///< the robot's own: x forward, y left, around its centre
   bool waits_for_map = true;  ///< `map: wait`; `map: none` starts with what is sensed
+  std::string distribution;   ///< of ROS 2, as ROS_DISTRO says; it decides what an action's result is
   spf::RobotFile file;
   spf::AgentParameters agent;  ///< of the file
 };

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <ros2_messages/action_msgs/GoalStatus.hpp>
 #include <ros2_messages/diagnostic_msgs/DiagnosticArray.hpp>
 #include <ros2_messages/geometry_msgs/PoseStamped.hpp>
 #include <ros2_messages/geometry_msgs/Twist.hpp>
+#include <ros2_messages/nav2_msgs/NavigateToPose.hpp>
 #include <ros2_messages/nav_msgs/OccupancyGrid.hpp>
 #include <ros2_messages/nav_msgs/Odometry.hpp>
 #include <ros2_messages/nav_msgs/Path.hpp>
@@ -219,6 +221,76 @@ TEST(Robot, PausesByParameterAndTopic) {
   yes.data = true;
   pause.publish(yes);
   EXPECT_TRUE(go_on_until([&] { return world.speed() < 0.01; })) << world.status().reason;
+}
+
+TEST(Robot, NavigatesToPoses) {
+  using Action = ros2::nav2_msgs::NavigateToPose;
+  using ros2::action_msgs::GoalStatus;
+  Program robot{kRobot};
+  World world;
+  ros2::Node& node = world.node();
+  const auto send =
+      node.client<Action::SendGoalRequest, Action::SendGoalResponse>("navigate_to_pose/_action/send_goal");
+  const auto ask =
+      node.client<Action::GetResultRequest, Action::GetResultResponse>("navigate_to_pose/_action/get_result");
+  std::vector<float> distances;
+  node.subscribe<Action::FeedbackMessage>("navigate_to_pose/_action/feedback", {}, [&](const auto& message) {
+    distances.push_back(message.feedback.distance_remaining);
+  });
+  ASSERT_TRUE(world.wait_for_robot());
+  ASSERT_TRUE(ros2::run_until({&world.process()}, [&] { return send.ready() && ask.ready(); }));
+  std::vector<Action::GetResultResponse> results;
+  int accepted = 0;
+  const auto navigate = [&](std::uint8_t number, double x) {
+    Action::SendGoalRequest request;
+    request.goal_id.uuid[0] = number;
+    request.goal.pose.header.frame_id = "map";
+    request.goal.pose.pose.position.x = x;
+    send.call(request, [&, id = request.goal_id](const auto& response) {
+      accepted += response.accepted ? 1 : 0;
+      Action::GetResultRequest wanted;
+      wanted.goal_id = id;
+      ask.call(wanted, [&](const auto& result) { results.push_back(result); });
+    });
+  };
+  const auto go_on_until = [&](const auto& done) {
+    for (int i = 0; i < 200 && !done(); ++i)
+      if (!world.go_on()) return false;
+    return done();
+  };
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(world.go_on()) << i;
+  navigate(1, 5.0);
+  EXPECT_TRUE(go_on_until([&] { return distances.size() >= 3; })) << world.status().reason;
+  EXPECT_LT(distances.back(), distances.front());
+  navigate(2, 1.0);  // which replaces it
+  EXPECT_TRUE(go_on_until([&] { return results.size() == 2; })) << world.status().reason;
+  navigate(3, 100.0);  // where there is no map
+  EXPECT_TRUE(go_on_until([&] { return results.size() == 3; })) << world.status().reason;
+  EXPECT_EQ(accepted, 3);
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_EQ(results[0].status, GoalStatus::STATUS_ABORTED);
+  EXPECT_EQ(results[0].result.error_msg, "a newer goal");
+  EXPECT_EQ(results[1].status, GoalStatus::STATUS_SUCCEEDED);
+  EXPECT_EQ(results[1].result.error_code, 0);
+  EXPECT_EQ(results[2].status, GoalStatus::STATUS_ABORTED);
+  EXPECT_EQ(results[2].result.error_msg, "the goal is off the map");
+}
+
+TEST(Robot, IsTheSameAsThreeProcesses) {
+  const auto part = [](const std::string& role) {
+    std::vector<std::string> arguments = kRobot;
+    arguments[0] = role;
+    return arguments;
+  };
+  Program tracker{part("tracker")}, planner{part("planner")}, perception{part("perception")};
+  World world;
+  ASSERT_TRUE(world.wait_for_robot());
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(world.go_on()) << i;
+  world.send_goal(1.5, 0.0, 0.0);
+  for (int tenths = 0; tenths < 300 && world.status().goal_outcome != "reached"; ++tenths)
+    ASSERT_TRUE(world.go_on()) << tenths << " " << world.status().reason;
+  EXPECT_EQ(world.status().goal_outcome, "reached") << world.status().reason;
+  for (Program* program : {&tracker, &planner, &perception}) EXPECT_EQ(program->end(SIGTERM), 0);
 }
 
 TEST(Program, RefusesWhatItCannotUse) {
