@@ -45,7 +45,7 @@ void PeerWatch::told(const TrajectoryMessage& message) {
 }
 
 bool PeerWatch::is_own(const TrajectoryMessage& message, double now) const {
-  if (!begun_ || (message.sent_time < *begun_ && now - *begun_ < kOwnPast)) return true;
+  if (!begun_ || (message.sent_time <= *begun_ && now - *begun_ < kOwnPast)) return true;
   return std::any_of(sent_.begin(), sent_.end(), [&](const Sent& sent) {
     return sent.sequence == message.sequence && std::abs(sent.time - message.sent_time) <= kSameTime;
   });

@@ -114,6 +114,17 @@ TEST(PeerWatch, KnowsItsOwnMessagesFromThoseOfANamesake) {
   EXPECT_TRUE(watch.admitted(on_its_way(3, 5.0, {5.0, 0.0}, {0.0, 0.0}), 41.0));
 }
 
+// By a simulator's clock, which stands between its ticks, the first own message comes back at the time that
+// it was sent.
+TEST(PeerWatch, KnowsItsFirstMessageWhenItComesBackAtOnce) {
+  PeerWatch watch{3, kAllowed};
+  const TrajectoryMessage first = on_its_way(3, 100.0, {0.0, 0.0}, {1.0, 0.0});
+  watch.told(first);
+  EXPECT_FALSE(watch.admitted(first, 100.0));
+  const TrajectoryMessage namesakes = on_its_way(3, 100.1, {5.0, 0.0}, {1.0, 0.0});
+  EXPECT_TRUE(watch.admitted(namesakes, 100.1));
+}
+
 TEST(PeerWatch, ComplainsOfABoundedNumber) {
   PeerWatch watch{0, kAllowed};
   for (int id = 1; id < 1000; ++id) watch.complain(id, PeerFault::frame, "speaks in another frame", 10.0);
