@@ -11,7 +11,7 @@
 namespace ros2 {
 namespace {
 
-constexpr auto kLongestWait = std::chrono::seconds{1};
+constexpr auto kLongestHold = std::chrono::seconds{1};
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void ServiceEndpoints::reply(const ReplyTo& to, Bytes reply) {
 void ServiceEndpoints::send_waiting() {
   const auto now = std::chrono::steady_clock::now();
   for (auto item = waiting_.begin(); item != waiting_.end();) {
-    if (reaches(item->client_id) || now - item->since > kLongestWait) {
+    if (reaches(item->client_id) || now - item->since > kLongestHold) {
       replies_.write(std::move(item->reply));
       item = waiting_.erase(item);
     } else {

@@ -4,9 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
+#include <optional>
 #include <ros2_messages/action_msgs/GoalStatus.hpp>
 #include <ros2_messages/diagnostic_msgs/DiagnosticArray.hpp>
 #include <ros2_messages/geometry_msgs/PoseStamped.hpp>
@@ -40,7 +39,9 @@ constexpr int kTicksOfAScan = 10;
 /// A base that does what it is told, its localisation, its scanner (nothing is in sight), and the clock.
 class World {
  public:
-  World() {
+  explicit World(int robot_id = 3)
+      : process_{{"--ros-args", "-r", "__ns:=/robot" + std::to_string(robot_id)}},
+        base_frame_{"robot" + std::to_string(robot_id) + "/base_link"} {
     command_ = &node_.subscribe<ros2::geometry_msgs::Twist>("cmd_vel", Qos::keep_last(10),
                                                             [this](const auto& twist) { twist_ = twist; });
     wheels_ = &node_.subscribe<ros2::spf_empc_msgs::WheelSpeeds>(
@@ -89,6 +90,8 @@ class World {
   ros2::Node& node() { return node_; }
   [[nodiscard]] const spf::Pose2& pose() const { return pose_; }
   [[nodiscard]] const RobotStatus& status() const { return status_; }
+  /// Scanner and tracker of obstacles say nothing from now on, or again.
+  void set_scans(bool scans) { scans_ = scans; }
   [[nodiscard]] double speed() const { return std::hypot(twist_.linear.x, twist_.linear.y); }
 
  private:
@@ -106,15 +109,16 @@ class World {
     ros2::nav_msgs::Odometry odometry;
     odometry.header.stamp = ros2::time_of(time_);
     odometry.header.frame_id = "map";
-    odometry.child_frame_id = "robot3/base_link";
+    odometry.child_frame_id = base_frame_;
     spf::wire::fill(pose_, odometry.pose.pose);
     odometry_.publish(odometry);
     process_.executor.spin_once(0.0);
   }
   void tell_surroundings() {
+    if (!scans_) return;
     ros2::sensor_msgs::LaserScan scan;
     scan.header.stamp = ros2::time_of(time_);
-    scan.header.frame_id = "robot3/base_link";
+    scan.header.frame_id = base_frame_;
     scan.angle_min = -3.1F;
     scan.angle_increment = 0.02F;
     scan.ranges.assign(311, std::numeric_limits<float>::infinity());
@@ -128,7 +132,7 @@ class World {
     obstacles_.publish(tracks);
   }
 
-  ros2::Process process_{{"--ros-args", "-r", "__ns:=/robot3"}};
+  ros2::Process process_;
   ros2::Node node_{process_.context, process_.executor, {"world"}};
   const ros2::Reader *command_ = nullptr, *wheels_ = nullptr, *plan_ = nullptr;
   ros2::Publisher<ros2::rosgraph_msgs::Clock> clock_ =
@@ -141,6 +145,8 @@ class World {
       node_.advertise<ros2::spf_empc_msgs::ObstacleTracks>("obstacles");
   ros2::Publisher<ros2::geometry_msgs::PoseStamped> goal_ =
       node_.advertise<ros2::geometry_msgs::PoseStamped>("goal_pose");
+  std::string base_frame_;
+  bool scans_ = true;
   spf::Pose2 pose_;
   ros2::Nanoseconds time_ = 1'000'000'000'000;
   ros2::Nanoseconds commanded_ = 0, planned_ = 0;  // stamps of the last command and plan
@@ -274,6 +280,56 @@ TEST(Robot, NavigatesToPoses) {
   EXPECT_EQ(results[1].result.error_code, 0);
   EXPECT_EQ(results[2].status, GoalStatus::STATUS_ABORTED);
   EXPECT_EQ(results[2].result.error_msg, "the goal is off the map");
+}
+
+TEST(Robot, StandsWithoutScansAndGoesOnWithThem) {
+  Program robot{kRobot};
+  World world;
+  ASSERT_TRUE(world.wait_for_robot());
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(world.go_on()) << i;
+  world.send_goal(15.0, 0.0, 0.0);
+  const auto tenths_until = [&](const auto& done) {
+    int tenths = 0;
+    for (; tenths < 100 && !done(); ++tenths)
+      if (!world.go_on()) return 1000;
+    return tenths;
+  };
+  EXPECT_LT(tenths_until([&] { return world.speed() > 0.5; }), 100) << world.status().reason;
+  world.set_scans(false);
+  // agent.team.stale_time (0.5 s), and braking from 1 m/s at 1 m/s^2.
+  EXPECT_LE(tenths_until([&] { return world.speed() < 0.01; }), 25) << world.status().reason;
+  EXPECT_THAT(world.status().reason, testing::HasSubstr("no"));
+  world.set_scans(true);
+  EXPECT_LT(tenths_until([&] { return world.speed() > 0.5; }), 100) << world.status().reason;
+}
+
+TEST(Robot, TellsItsPeersAndHearsThem) {
+  using ros2::spf_empc_msgs::Trajectory;
+  Program robot{kRobot};
+  World world;
+  const auto swarm = world.node().advertise<Trajectory>("/swarm/trajectories", Qos::keep_last(50));
+  std::optional<Trajectory> told;
+  world.node().subscribe<Trajectory>("/swarm/trajectories", Qos::keep_last(50),
+                                     [&](const Trajectory& message) {
+                                       if (message.robot_id == 3) told = message;
+                                     });
+  ASSERT_TRUE(world.wait_for_robot());
+  ASSERT_TRUE(ros2::run_until({&world.process()}, [&] { return swarm.subscribers() == 2; }));  // itself, too
+  for (int i = 0; i < 30; ++i) ASSERT_TRUE(world.go_on()) << i;
+  ASSERT_TRUE(told) << "nothing was told";
+  EXPECT_EQ(told->header.frame_id, "map");
+  EXPECT_EQ(world.status().messages_accepted, 0U);
+  // A peer that does the same 5 m away, and one that talks nonsense.
+  Trajectory peer = *told;
+  peer.robot_id = 1;
+  for (std::size_t i = 0; i < peer.coefficients.size(); i += 12) peer.coefficients[i] += 5.0;
+  swarm.publish(peer);
+  peer.robot_id = 2;
+  peer.durations[0] = -1.0;
+  swarm.publish(peer);
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(world.go_on()) << i;
+  EXPECT_EQ(world.status().messages_accepted, 1U);
+  EXPECT_EQ(world.status().messages_malformed, 1U);
 }
 
 TEST(Robot, IsTheSameAsThreeProcesses) {
