@@ -67,7 +67,7 @@ py::dict output_of(const Robot& self, const host::RobotOutput& output) {
 Robot::Robot(const sim::Scenario& scene, const AgentParameters& fleet, int number)
     : host_{number, sim::agent_parameters_for(scene, fleet),
             sim::host_parameters_for(scene, sim::agent_parameters_for(scene, fleet))},
-      wheel_speeds_{Drive{scene.robot}.standstill()} {
+      wheel_speeds_{Drive{scene.robot_of(static_cast<std::size_t>(number))}.standstill()} {
   const sim::RobotTask& task = scene.robots[static_cast<std::size_t>(number)];
   host_.planner().set_goal({task.goal_world, task.goal_heading});
   host_.start(sim::robot_map(scene), task.start, 0.0);

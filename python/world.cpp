@@ -12,13 +12,20 @@
 namespace spf::python {
 namespace {
 
+/// Inputs of the drive that has the most: rows of an action are that long.
+Eigen::Index widest(const std::vector<DriveInput>& inputs) {
+  Eigen::Index most = 0;
+  for (const DriveInput& input : inputs) most = std::max(most, input.size());
+  return most;
+}
+
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 class GymWorld {
  public:
   GymWorld(const ScenarioFile& scenario, const py::object& trial)
       : first_{whole_number(trial, "trial", 0, kLastTrial)}, next_{first_}, stepper_{scenario, first_} {
-    inputs_.assign(robots(), Drive{stepper_.world().scenario().robot}.standstill());
+    inputs_ = stepper_.world().commands();
   }
 
   py::tuple reset(const py::object& seed, const std::optional<py::dict>& options) {
@@ -57,7 +64,9 @@ class GymWorld {
   [[nodiscard]] std::unique_ptr<Robot> robot(int number) const {
     check_robot(number);
     const sim::Scenario& scene = stepper_.world().scenario();
-    return std::make_unique<Robot>(scene, agent_parameters(stepper_.scenario().config()), number);
+    const std::vector<AgentParameters> agents = agents_of(stepper_.scenario().config());
+    return std::make_unique<Robot>(
+        scene, agents[scene.fleet.empty() ? 0 : scene.robots[static_cast<std::size_t>(number)].kind], number);
   }
 
   [[nodiscard]] Observation observation_of(int robot) const {
@@ -101,7 +110,7 @@ class GymWorld {
     const Numbers numbers = Numbers::ensure(action);
     if (!numbers) PyErr_Clear();
     const py::ssize_t rows = static_cast<py::ssize_t>(robots());
-    const py::ssize_t width = inputs_.front().size();
+    const py::ssize_t width = static_cast<py::ssize_t>(widest(inputs_));
     const bool fits = numbers && numbers.ndim() == 2 && numbers.shape(0) == rows && numbers.shape(1) == width;
     const auto good = [](double number) { return std::abs(number) <= kLargestInput; };
     if (!fits || !std::all_of(numbers.data(), numbers.data() + numbers.size(), good))
@@ -109,7 +118,8 @@ class GymWorld {
              "must be numbers in [-1000, 1000] of shape (" + std::to_string(rows) + ", " +
                  std::to_string(width) + ")");
     for (std::size_t i = 0; i < inputs_.size(); ++i)
-      inputs_[i] = Eigen::Map<const Eigen::VectorXd>(numbers.data(static_cast<py::ssize_t>(i), 0), width);
+      inputs_[i] =
+          Eigen::Map<const Eigen::VectorXd>(numbers.data(static_cast<py::ssize_t>(i), 0), inputs_[i].size());
   }
 
   [[nodiscard]] std::vector<double> distances() const {
@@ -198,22 +208,27 @@ class Fleet {
 
   py::array_t<double> act() {
     think();
-    const py::ssize_t width = robots_.front().wheel_speeds().size();
+    const py::ssize_t width = static_cast<py::ssize_t>(widest(world_.stepper().world().commands()));
     py::array_t<double> action({static_cast<py::ssize_t>(robots_.size()), width});
-    for (std::size_t i = 0; i < robots_.size(); ++i)
-      Eigen::Map<Eigen::VectorXd>{action.mutable_data(static_cast<py::ssize_t>(i), 0), width} =
-          robots_[i].wheel_speeds();
+    for (std::size_t i = 0; i < robots_.size(); ++i) {
+      const DriveInput& speeds = robots_[i].wheel_speeds();
+      Eigen::Map<Eigen::VectorXd> row{action.mutable_data(static_cast<py::ssize_t>(i), 0), width};
+      row.setZero();
+      row.head(speeds.size()) = speeds;
+    }
     return action;
   }
 
  private:
   void begin() {
     const WorldStepper& stepper = world_.stepper();
-    const AgentParameters agent = agent_parameters(stepper.scenario().config());
+    const sim::Scenario& scene = stepper.world().scenario();
+    const std::vector<AgentParameters> agents = agents_of(stepper.scenario().config());
     robots_.clear();
     robots_.reserve(world_.robots());
     for (std::size_t i = 0; i < world_.robots(); ++i)
-      robots_.emplace_back(stepper.world().scenario(), agent, static_cast<int>(i));
+      robots_.emplace_back(scene, agents[scene.fleet.empty() ? 0 : scene.robots[i].kind],
+                           static_cast<int>(i));
     begun_ = stepper.beginnings();
   }
 

@@ -56,6 +56,19 @@ def test_a_fleet_drives_itself_trial_after_trial():
         assert f"{world.result()['digest']:016x}" == T2.run(number).digest
 
 
+def test_robots_of_several_kinds_drive_as_in_a_trial():
+    mixed = T2.changed({"fleet": [{"robot": {"drive": "car", "max_acceleration": 0.8}},
+                                  {"robot": {"drive": "mecanum", "radius": 0.2}, "method": "orca"}]})
+    world = spf.World(mixed)
+    fleet = spf.Fleet(world)
+    world.reset()
+    while not world.finished:
+        action = fleet.act()
+        assert action.shape == (5, 4) and (action[0, 2:] == 0.0).all()  # a car has two inputs
+        world.step(action)
+    assert f"{world.result()['digest']:016x}" == mixed.run(0).digest
+
+
 def test_a_robot_of_a_fleet_can_be_driven_otherwise():
     world = spf.World(T2)
     fleet = spf.Fleet(world)
