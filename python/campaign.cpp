@@ -80,11 +80,7 @@ Results run(const CampaignPlan& plan, const py::object& jobs, const std::pair<in
       interruption.keep_error();
     }
   };
-  {
-    const py::gil_scoped_release release;
-    run_campaign(plan, request);
-  }
-  interruption.raise_if_wanted();
+  run_unlocked(interruption, [&] { run_campaign(plan, request); });
   return {store.finish()};
 }
 

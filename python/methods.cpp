@@ -41,7 +41,9 @@ auto with_lock(const std::string& method, const Call& call) {
   try {
     return call();
   } catch (const py::error_already_set& error) {
-    throw std::runtime_error("method " + method + ": " + error.what());
+    const std::string reason = error.what();
+    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // seen again when the run has ended
+    throw std::runtime_error("method " + method + ": " + reason);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <string>
 
 #include "python/bind.hpp"
@@ -46,6 +47,20 @@ class Interruption {
   PyObject* value_ = nullptr;
   PyObject* trace_ = nullptr;
 };
+
+/// Runs without the lock, and raises what has ended the run. Ctrl-C while a method in Python planned is told
+/// as that method's failure, and is still waiting here (methods.cpp).
+template <class Run>
+void run_unlocked(Interruption& interruption, const Run& run) {
+  try {
+    const py::gil_scoped_release release;
+    run();
+  } catch (const std::runtime_error&) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set{};
+    throw;
+  }
+  interruption.raise_if_wanted();
+}
 
 /// A whole number within limits. Throws by refuse().
 [[nodiscard]] inline int whole_number(const py::object& value, const char* key, int low, int high) {

@@ -30,11 +30,7 @@ Trial run_one(const ScenarioFile& scenario, const py::object& number, bool recor
   Interruption interruption;
   options.progress = [&interruption](double) { return !interruption.wanted(); };
   FinishedTrial finished;
-  {
-    const py::gil_scoped_release release;
-    finished = run_trial(cell_of(scenario.config()), trial, options);
-  }
-  interruption.raise_if_wanted();
+  run_unlocked(interruption, [&] { finished = run_trial(cell_of(scenario.config()), trial, options); });
   Trial done{std::move(finished.record), std::move(finished.recording), nullptr};
   if (record) done.config = std::make_shared<const RunConfiguration>(scenario.config());
   return done;

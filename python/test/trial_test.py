@@ -1,5 +1,7 @@
 """Trials and campaigns from Python are those of the program, bit for bit."""
 import json
+import os
+import signal
 import threading
 import time
 
@@ -101,6 +103,25 @@ def test_progress_is_told_and_may_end_a_run():
     with pytest.raises(KeyError, match="enough"):
         campaign.run(jobs=1, progress=fail)
     assert told == [1]
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+@pytest.mark.parametrize("run", [lambda scenario, jobs: scenario.run(0, jobs=jobs),
+                                 lambda scenario, jobs: spf.Campaign.of(scenario, trials=10**5).run(jobs=jobs)])
+def test_ctrl_c_ends_a_run(run, jobs):
+    """Pressed while a method in Python plans, which is a sure moment of the run."""
+    class Interrupting:
+        asked = 0
+
+        def plan(self, request):
+            Interrupting.asked += 1
+            if Interrupting.asked == 10:
+                os.kill(os.getpid(), signal.SIGINT)
+
+    methods = spf.MethodTable()
+    methods.add("interrupting", "stands, and presses Ctrl-C", lambda parameters: Interrupting())
+    with pytest.raises(KeyboardInterrupt):
+        run(spf.Scenario.load(T2, {"method": "interrupting"}, methods=methods), jobs)
 
 
 def test_python_goes_on_while_a_trial_runs():
