@@ -82,7 +82,7 @@ void Executor::call_timers() {
     const Nanoseconds now = item.clock->now();
     if (item.due > now + item.period) item.due = now + item.period;
     if (item.due > now) continue;
-    item.due = std::max(item.due + item.period, now);
+    item.due += (1 + (now - item.due) / item.period) * item.period;
     due.push_back(number);
   }
   for (const int number : due) call(number);
