@@ -1,6 +1,7 @@
 #include "ros2/robot/goals.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ros2_messages/action_msgs/GoalStatus.hpp>
 #include <ros2_messages/std_msgs/Empty.hpp>
 #include <utility>
@@ -90,7 +91,9 @@ void Goals::conclude() {
 
 void Goals::tell_feedback(double distance, double now) {
   const double time = 1e-9 * static_cast<double>(node_.clock().now());
-  if (!server_->active() || (time < next_feedback_ && next_feedback_ <= time + kFeedbackPeriod)) return;
+  if (!server_->active() || !std::isfinite(distance) ||
+      (time < next_feedback_ && next_feedback_ <= time + kFeedbackPeriod))
+    return;
   next_feedback_ = time + kFeedbackPeriod;
   NavigateFeedback feedback;
   feedback.pose.header.stamp = node_.clock().stamp();
