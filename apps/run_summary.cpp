@@ -98,6 +98,11 @@ std::string summary_text(const RunConfiguration& config, const std::vector<Trial
     add("hits while standing", rate_text(row.hits_while_standing, row));
   }
   add("robots at goal", std::to_string(row.arrived_robots) + " of " + std::to_string(row.robots));
+  if (row.robot_hours > 0.0) {
+    add("goals reached",
+        std::to_string(row.goals_reached) + ", " + fixed(row.goals_per_robot_hour, 1) + " a robot-hour");
+    add("longest stand", fixed(row.longest_stand, 1) + " s, of robots with a goal that were not told to");
+  }
   add("travel time", fixed(row.travel_time_mean, 2) + " s, " + fixed(row.travel_time_ratio, 3) +
                          " times the obstacle-free optimum");
   add("path length",

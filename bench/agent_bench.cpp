@@ -38,6 +38,17 @@ void report(benchmark::State& state, const char* name, std::vector<float>& value
   state.counters[prefix + "_max"] = to_microseconds * quantile(values, 1.0);
 }
 
+/// Keeps the computing times of all calls.
+struct Timings : spf::sim::TrialListener {
+  void planned(double /*time*/, const spf::RobotAgent& /*agent*/, double ms) override {
+    plan_ms.push_back(static_cast<float>(ms));
+  }
+  void controlled(double /*time*/, int /*robot*/, double us) override {
+    control_us.push_back(static_cast<float>(us));
+  }
+  std::vector<float> plan_ms, control_us;
+};
+
 void agent_in(benchmark::State& state, spf::sim::Family family, int robots, spf::sim::TrackingMode tracking) {
   spf::sim::FamilySetup setup = spf::sim::family_setup(family);
   setup.layout.robots = robots;
@@ -47,8 +58,8 @@ void agent_in(benchmark::State& state, spf::sim::Family family, int robots, spf:
   setup.simulation.trial.after_contact = spf::sim::AfterContact::wreck;  // every trial counts its ten seconds
   spf::sim::SimulationOptions options;
   options.clock = steady_seconds;
-  std::vector<float> plan_ms;
-  std::vector<float> control_us;
+  Timings timings;
+  options.listener = &timings;
   double simulated = 0.0;
   double wall = 0.0;
   int trial = kFirstTrial;
@@ -56,13 +67,11 @@ void agent_in(benchmark::State& state, spf::sim::Family family, int robots, spf:
     const spf::sim::Scenario scenario = make_scenario(setup, spf::sim::kDefaultSeed, trial++);
     const spf::sim::TrialResult result =
         spf::sim::Simulation{scenario, spf::AgentParameters{}, options}.run();
-    plan_ms.insert(plan_ms.end(), result.plan_ms.begin(), result.plan_ms.end());
-    control_us.insert(control_us.end(), result.control_us.begin(), result.control_us.end());
     simulated += result.sim_seconds;
     wall += result.wall_seconds;
   }
-  report(state, "plan_us", plan_ms, 1e3);
-  report(state, "control_us", control_us, 1.0);
+  report(state, "plan_us", timings.plan_ms, 1e3);
+  report(state, "control_us", timings.control_us, 1.0);
   state.counters["x_real_time"] = simulated / wall;
   state.counters["wall_ms_per_robot_second"] = 1e3 * wall / (simulated * robots);
 }

@@ -31,6 +31,10 @@ std::string to_text(const std::optional<double>& value) {
   return value ? to_text(*value) : "none";
 }
 
+std::string to_text(const std::optional<Eigen::Vector2d>& value) {
+  return value ? to_text(*value) : "none";
+}
+
 std::string to_text(const std::string& value) {
   std::string text = "\"";
   for (const char c : value) {

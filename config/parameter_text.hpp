@@ -21,6 +21,7 @@ namespace spf {
 [[nodiscard]] std::string to_text(const Eigen::Vector2d& value);
 /// The number, or "none".
 [[nodiscard]] std::string to_text(const std::optional<double>& value);
+[[nodiscard]] std::string to_text(const std::optional<Eigen::Vector2d>& value);
 /// In quotation marks, escaped.
 [[nodiscard]] std::string to_text(const std::string& value);
 /// The name of an enumerator.

@@ -145,6 +145,16 @@ void read_value(const ReadTarget& target, const char* unit, Range range, std::op
   }
 }
 
+void read_value(const ReadTarget& target, const char* unit, Range range,
+                std::optional<Eigen::Vector2d>& value) {
+  if (target.node.kind == YamlKind::scalar && !target.node.quoted && target.node.text == "none")
+    return value.reset();
+  constexpr double kUnread = std::numeric_limits<double>::quiet_NaN();
+  Eigen::Vector2d read = Eigen::Vector2d::Constant(kUnread);
+  read_value(target, unit, range, read);
+  if (read.allFinite()) value = read;
+}
+
 void read_choice(const ReadTarget& target, bool& value) {
   const std::optional<std::string_view> text = plain_text(target.node);
   if (!text || !is_one_of(*text, {"true", "false"})) return target.refuse("must be true or false");

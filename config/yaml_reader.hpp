@@ -3,7 +3,7 @@
 // values are not stored.
 //
 // Beside the calls of spf/math/parameters.hpp a visit_fields may use
-//   visit(name, Eigen::Vector2d or std::optional<double>, unit, range, what)
+//   visit(name, Eigen::Vector2d or std::optional of it or of double, unit, range, what)
 //   visit(name, std::string, what)
 //   visit.list(name, std::vector<Struct>, what)   entries are maps, each read over the entry that is there
 //   visit.values(name, std::vector<double>, unit, range, what)           numbers in brackets
@@ -45,6 +45,8 @@ void read_value(const ReadTarget& target, const char* unit, Range range, int& va
 void read_value(const ReadTarget& target, const char* unit, Range range, std::uint64_t& value);
 void read_value(const ReadTarget& target, const char* unit, Range range, Eigen::Vector2d& value);
 void read_value(const ReadTarget& target, const char* unit, Range range, std::optional<double>& value);
+void read_value(const ReadTarget& target, const char* unit, Range range,
+                std::optional<Eigen::Vector2d>& value);
 void read_choice(const ReadTarget& target, bool& value);
 void read_choice(const ReadTarget& target, std::string& value);
 /// Index of the name given.

@@ -128,7 +128,8 @@ void describe_dynamic_obstacles(ReplayData& data, const sim::Recording& recordin
 // --------------------------------------------------------------------------------------------------------
 
 ReplayStateKind kind_of(const sim::RecordedRobot& robot) {
-  if (robot.wrecked) return ReplayStateKind::trouble;
+  if (robot.gone) return ReplayStateKind::arrived;
+  if (robot.wrecked || robot.broken) return ReplayStateKind::trouble;
   switch (robot.status.reason) {
     case StopCause::none:
       return robot.status.state == PeerState::braking ? ReplayStateKind::braking : ReplayStateKind::moving;
@@ -146,7 +147,9 @@ ReplayStateKind kind_of(const sim::RecordedRobot& robot) {
 }
 
 std::string state_text(const sim::RecordedRobot& robot) {
+  if (robot.gone) return "not in the scene";
   if (robot.wrecked) return "wrecked";
+  if (robot.broken) return "broken down";
   std::string text = to_string(robot.status.reason);
   if (robot.status.blocking_id >= 0) text += " " + std::to_string(robot.status.blocking_id);
   if (robot.status.reason != StopCause::none && robot.status.state == PeerState::braking)
@@ -160,13 +163,15 @@ ReplayClearance clearance(const sim::RecordedClearance& recorded) {
 
 ReplayRobotFrame robot_frame(ReplayData& data, const sim::RecordedRobot& robot) {
   ReplayRobotFrame frame;
+  frame.state = state_index(data, state_text(robot), kind_of(robot));
+  frame.pose = {kUnknown, kUnknown, kUnknown};
+  if (robot.gone) return frame;
   frame.pose = pose(robot.pose);
   if (robot.estimate.valid) {
     frame.estimate = pose(robot.estimate.pose_world);
     const double variance = robot.estimate.position_sigma * robot.estimate.position_sigma;
     frame.estimate_covariance = {variance, 0.0, variance};
   }
-  frame.state = state_index(data, state_text(robot), kind_of(robot));
   for (Eigen::Index wheel = 0; wheel < robot.wheel_speeds.size(); ++wheel)
     frame.wheel_speeds[static_cast<std::size_t>(wheel)] = robot.wheel_speeds[wheel];
   frame.to_obstacle = clearance(robot.to_dynamic);
@@ -253,12 +258,30 @@ void describe_robots(ReplayData& data, const sim::Recording& recording) {
   }
   for (const sim::RecordedPlan& plan : recording.plans)
     data.robots[static_cast<std::size_t>(plan.robot)].plans.push_back(plan_of(plan));
+  for (const sim::RecordedGoal& goal : recording.goals)
+    data.robots[static_cast<std::size_t>(goal.robot)].goals.push_back(
+        {goal.time, goal.goal ? point(goal.goal->position_world) : ReplayPoint{kUnknown, kUnknown}});
   for (const sim::RecordedCells& cells : recording.cells)
     data.robots[static_cast<std::size_t>(cells.robot)].cells.push_back(cells_of(cells));
 }
 
 // ---- what happened
 // -------------------------------------------------------------------------------------------------
+
+/// What a robot was told, or befell it, as one reads it of the robot.
+std::string order_text(const std::string& act) {
+  if (act == enum_name(sim::FleetAct::goal)) return "has another goal";
+  if (act == enum_name(sim::FleetAct::cancel)) return "has no goal any more";
+  if (act == enum_name(sim::FleetAct::pause)) return "is told to pause";
+  if (act == enum_name(sim::FleetAct::resume)) return "is told to go on";
+  if (act == enum_name(sim::FleetAct::stop)) return "emergency stop";
+  if (act == enum_name(sim::FleetAct::release)) return "is released from the emergency stop";
+  if (act == enum_name(sim::FleetAct::break_down)) return "breaks down";
+  if (act == enum_name(sim::FleetAct::repair)) return "is repaired";
+  if (act == enum_name(sim::FleetAct::leave)) return "is taken away";
+  if (act == enum_name(sim::FleetAct::join)) return "joins";
+  return "has another priority";
+}
 
 ReplayEvent event_of(const sim::RecordedEvent& recorded) {
   ReplayEvent event;
@@ -282,6 +305,10 @@ ReplayEvent event_of(const sim::RecordedEvent& recorded) {
     case sim::RecordedEvent::Kind::go:
       event.kind = ReplayEventKind::note;
       event.text = "goes on";
+      break;
+    case sim::RecordedEvent::Kind::order:
+      event.kind = ReplayEventKind::note;
+      event.text = order_text(recorded.text);
       break;
     case sim::RecordedEvent::Kind::arrival:
       event.kind = ReplayEventKind::arrival;

@@ -82,6 +82,17 @@ void add_crossing(ResultRow& row, const TrialRecord& trial) {
   row.robot_minutes += trial.crossing->robot_minutes;
 }
 
+void add_fleet(ResultRow& row, const TrialRecord& trial) {
+  for (const RobotRecord& robot : trial.robots) {
+    if (!robot.fleet) continue;
+    row.goals_reached += robot.fleet->goals_reached;
+    row.robot_hours += robot.fleet->present_time / 3600.0;
+    row.longest_stand = std::max(row.longest_stand, robot.fleet->longest_stand);
+  }
+  if (row.robot_hours > 0.0)
+    row.goals_per_robot_hour = static_cast<double>(row.goals_reached) / row.robot_hours;
+}
+
 class CsvWriter {
  public:
   void operator()(const char*, const std::string& value) { cell(value); }
@@ -117,6 +128,7 @@ ResultRow result_row(const std::vector<TrialRecord>& trials) {
     for (const RobotRecord& robot : trial.robots) row.arrived_robots += robot.arrived ? 1 : 0;
     row.robots += static_cast<int>(trial.robots.size());
     add_crossing(row, trial);
+    add_fleet(row, trial);
     row.sim_seconds += trial.sim_time;
     row.wall_seconds += trial.wall_time;
     plan_time.merge(trial.plan_time);
@@ -142,6 +154,8 @@ std::string to_json_line(const ResultRow& row) {
   if (row.crossings > 0)
     ResultRow::visit_crossing_fields(row,
                                      [&json](const char* name, const auto& value) { json[name] = value; });
+  if (row.robot_hours > 0.0)
+    ResultRow::visit_fleet_fields(row, [&json](const char* name, const auto& value) { json[name] = value; });
   if (!row.condition.empty()) json["condition"] = row.condition;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // NaN is written as null
 }

@@ -37,7 +37,12 @@ struct ResultRow {
   int contacts_moving = 0;              ///< contacts of robots that had not stood still for a second
   int hits_while_standing = 0;          ///< by people, who do not react, of robots that had
   double robot_minutes = 0.0;           ///< [min] that robots spent in the scene
-  std::string condition;                ///< of a campaign; a row without one does not write it
+  // Of fleets that do more than go to one goal each, over all trials; other rows do not write them.
+  std::int64_t goals_reached = 0;
+  double robot_hours = 0.0;           ///< [h] that robots spent in the scene
+  double goals_per_robot_hour = 0.0;  ///< [1/h] throughput
+  double longest_stand = 0.0;         ///< [s] at a stretch, of a robot with a goal and not told to stand
+  std::string condition;              ///< of a campaign; a row without one does not write it
 
   /// The only list of these fields.
   template <class Self, class Visitor>
@@ -81,6 +86,13 @@ struct ResultRow {
     visit("contacts_moving", self.contacts_moving);
     visit("hits_while_standing", self.hits_while_standing);
     visit("robot_minutes", self.robot_minutes);
+  }
+  template <class Self, class Visitor>
+  static void visit_fleet_fields(Self& self, Visitor&& visit) {
+    visit("goals_reached", self.goals_reached);
+    visit("robot_hours", self.robot_hours);
+    visit("goals_per_robot_hour", self.goals_per_robot_hour);
+    visit("longest_stand", self.longest_stand);
   }
 };
 

@@ -59,6 +59,23 @@ struct TrialKey {
   std::string condition;  ///< of a campaign: which further settings of the scene; empty = none
 };
 
+/// Of one robot, in trials in which robots do more than go to one goal.
+struct FleetRecord {
+  std::int64_t goals_reached = 0;
+  double present_time = 0.0;   ///< [s] in the scene
+  double longest_stand = 0.0;  ///< [s] at a stretch, with a goal to go to and not told to stand
+  bool excused = false;        ///< at the end nothing more was asked of it: no goal, taken away, or broken
+
+  template <class Self, class Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    using namespace record_limits;
+    visit.whole("goals_reached", self.goals_reached, 0, kMostCalls);
+    visit.number("present_time", self.present_time, kTime);
+    visit.number("longest_stand", self.longest_stand, kTime);
+    visit.flag("excused", self.excused);
+  }
+};
+
 /// Of one robot; lengths and times count until it first arrived, or to the end of the trial.
 struct RobotRecord {
   bool arrived = false;
@@ -72,6 +89,7 @@ struct RobotRecord {
   std::int64_t inner_iterations = 0;  ///< in all of them
   int guard_stops = 0;                ///< by the guard
   double guard_held = 0.0;            ///< [s] in which the guard slowed or stopped it
+  std::optional<FleetRecord> fleet;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -89,6 +107,7 @@ struct RobotRecord {
       visit.whole("guard_stops", self.guard_stops, 0, kMostContacts);
       visit.number("guard_held", self.guard_held, kTime);
     }
+    if (visit.present("goals_reached", self.fleet.has_value())) visit.part(self.fleet);
   }
 };
 

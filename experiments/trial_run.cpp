@@ -36,7 +36,7 @@ std::string timeout_text(const sim::TrialResult& result) {
   std::string text;
   for (std::size_t i = 0; i < result.robots.size(); ++i) {
     const sim::RobotResult& robot = result.robots[i];
-    if (robot.in_time) continue;
+    if (robot.in_time || robot.excused) continue;
     text += (text.empty() ? "not arrived in time: robot " : "; robot ") + std::to_string(i);
     if (robot.arrived) {
       text += " (late, after " + fixed(robot.travel_time, 1) + " s)";
@@ -50,8 +50,19 @@ std::string timeout_text(const sim::TrialResult& result) {
   return text.empty() ? "stopped before the end" : text;
 }
 
-RobotRecord robot_record(const sim::RobotResult& robot) {
+/// What a robot did in a trial in which robots do more than go to one goal.
+FleetRecord fleet_record(const sim::RobotResult& robot) {
+  FleetRecord record;
+  record.goals_reached = robot.life.goals_reached;
+  record.present_time = robot.life.present_time;
+  record.longest_stand = robot.life.longest_stand;
+  record.excused = robot.excused;
+  return record;
+}
+
+RobotRecord robot_record(const sim::RobotResult& robot, bool life) {
   RobotRecord record;
+  if (life) record.fleet = fleet_record(robot);
   record.arrived = robot.arrived;
   record.path_length = robot.path_length;
   record.travel_time = robot.travel_time;
@@ -77,8 +88,9 @@ CrossingRecord crossing_of(const sim::TrialResult& result) {
   return crossing;
 }
 
-/// The record of a trial, from its result and the figures of the watch.
-TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const TrialWatch& watch) {
+/// The record of a trial, from its result and the figures of the watch; with those of fleets that have a
+/// `life` (sim::has_life).
+TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const TrialWatch& watch, bool life) {
   TrialRecord record;
   record.key = cell.key;
   record.key.trial = result.trial;
@@ -91,7 +103,7 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
   record.sim_time = result.sim_seconds;
   record.dynamic_distance = finite_or_unknown(result.dynamic_distance);
   record.dynamic_clearance = finite_or_unknown(result.dynamic_clearance);
-  for (const sim::RobotResult& robot : result.robots) record.robots.push_back(robot_record(robot));
+  for (const sim::RobotResult& robot : result.robots) record.robots.push_back(robot_record(robot, life));
   if (result.outcome == sim::TrialOutcome::collision && record.contact)
     record.failure = contact_text(*record.contact);
   if (result.outcome == sim::TrialOutcome::timeout) record.failure = timeout_text(result);
@@ -100,9 +112,8 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
       sim::TrackingMode::full)  // otherwise there are no wheel speeds
     record.wheel_share = watch.largest_wheel_share();
   record.digest = hexadecimal(result.digest);
-  for (const float duration : result.plan_ms) record.plan_time.add(1e-3 * static_cast<double>(duration));
-  for (const float duration : result.control_us)
-    record.control_time.add(1e-6 * static_cast<double>(duration));
+  record.plan_time = watch.plan_time();
+  record.control_time = watch.control_time();
   record.new_plan_time = watch.new_plan_time();
   record.optimiser_time = watch.optimiser_time();
   record.wall_time = result.wall_seconds;
@@ -128,7 +139,7 @@ FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options
     };
   sim::TrialResult result = sim::Simulation{scenario, agents_of(cell.config), simulation}.run();
   result.trial = trial;
-  finished.record = record_of(cell, result, watch);
+  finished.record = record_of(cell, result, watch, has_life(scenario));
   finished.recording = result.recording;
   return finished;
 }

@@ -26,9 +26,15 @@ void TrialWatch::planned(double time, const RobotAgent& agent, double plan_ms) {
   Robot& robot = robots_[static_cast<std::size_t>(agent.robot_id())];
   robot.plan = plan.outcome;
   robot.plan_time = time;
-  if (!(plan_ms > 0.0) || plan.stats.optimiser_calls + plan.stats.primitives == 0) return;
+  if (!(plan_ms > 0.0)) return;
+  plan_time_.add(1e-3 * plan_ms);
+  if (plan.stats.optimiser_calls + plan.stats.primitives == 0) return;
   new_plan_time_.add(1e-3 * plan_ms);
   if (plan.stats.optimiser_calls > 0) optimiser_time_.add(1e-3 * plan_ms / plan.stats.optimiser_calls);
+}
+
+void TrialWatch::controlled(double /*time*/, int /*robot*/, double control_us) {
+  if (control_us > 0.0) control_time_.add(1e-6 * control_us);
 }
 
 void TrialWatch::contact(const sim::Contact& contact) {
@@ -39,7 +45,8 @@ std::optional<CauseRecord> TrialWatch::cause_of(const sim::TrialResult& result) 
   if (result.outcome == sim::TrialOutcome::success) return std::nullopt;
   if (result.outcome == sim::TrialOutcome::collision) return of_first_contact_;
   for (std::size_t i = 0; i < result.robots.size(); ++i)
-    if (!result.robots[i].in_time) return cause(static_cast<int>(i), result.sim_seconds);
+    if (!result.robots[i].in_time && !result.robots[i].excused)
+      return cause(static_cast<int>(i), result.sim_seconds);
   return std::nullopt;
 }
 

@@ -19,6 +19,7 @@ class TrialWatch : public sim::TrialListener {
 
   void frame(const sim::TrialFrame& frame) override;
   void planned(double time, const RobotAgent& agent, double plan_ms) override;
+  void controlled(double time, int robot, double control_us) override;
   void contact(const sim::Contact& contact) override;
 
   /// What the robot that made the first contact was doing, or else the first that has not arrived at the end.
@@ -26,6 +27,10 @@ class TrialWatch : public sim::TrialListener {
   [[nodiscard]] std::optional<CauseRecord> cause_of(const sim::TrialResult& result) const;
   /// Of any wheel, true or commanded, as a share of its robot's limit.
   [[nodiscard]] double largest_wheel_share() const { return largest_wheel_share_; }
+  /// [s] of each planning call with what it had to take in; empty without a clock.
+  [[nodiscard]] const DurationHistogram& plan_time() const { return plan_time_; }
+  /// [s] of each control tick with the poses since the last; likewise.
+  [[nodiscard]] const DurationHistogram& control_time() const { return control_time_; }
   /// [s] of the planning calls that searched for a new plan: most calls only find that the plan is still
   /// valid.
   [[nodiscard]] const DurationHistogram& new_plan_time() const { return new_plan_time_; }
@@ -45,7 +50,7 @@ class TrialWatch : public sim::TrialListener {
   std::vector<Robot> robots_;
   std::optional<CauseRecord> of_first_contact_;
   double largest_wheel_share_ = 0.0;
-  DurationHistogram new_plan_time_, optimiser_time_;
+  DurationHistogram plan_time_, control_time_, new_plan_time_, optimiser_time_;
 };
 
 }  // namespace spf

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "host/goal.hpp"
 #include "host/health.hpp"
 #include "host/localiser.hpp"
 #include "host/peer_watch.hpp"
@@ -37,11 +38,6 @@ enum class ObservationVerdict {
 struct SensedWorld {
   Observation observation;
   bool has_detections = false;
-};
-
-struct Goal {
-  Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
-  std::optional<double> heading;                             ///< [rad] any without
 };
 
 struct PlannerOutput {

@@ -133,6 +133,8 @@ const char* name_of(sim::RecordedEvent::Kind kind) {
       return "go";
     case sim::RecordedEvent::Kind::arrival:
       return "arrival";
+    case sim::RecordedEvent::Kind::order:
+      return "order";
   }
   return "?";
 }

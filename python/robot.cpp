@@ -3,6 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/fleet_order.hpp"
+#include "spf/math/index.hpp"
+
 namespace spf::python {
 namespace {
 
@@ -85,6 +88,19 @@ void Robot::add_message(const HeardMessage& message, const py::object& now) {
   host_.add_message(message, finite_number(now, "now"));
 }
 
+void Robot::obey(const sim::FleetOrder& order, const sim::World& world) {
+  if (order.act != sim::FleetAct::join && order.act != sim::FleetAct::repair)
+    return sim::obey(order, world, *host_.planner().given_map(), host_);
+  wheel_speeds_ = Drive{world.scenario().robot_of(as_index(order.robot))}.standstill();
+  sim::obey(order, world, sim::robot_map(world.scenario()), host_);
+}
+
+void Robot::set_goal(const py::object& goal, const std::optional<double>& heading) {
+  if (heading && !std::isfinite(*heading)) refuse("heading", py::float_(*heading), "must be finite, or None");
+  if (!host_.planner().set_goal({point_from(goal, "goal"), heading}))
+    refuse("goal", goal, "lies beyond all robots");
+}
+
 host::RobotOutput Robot::live(const PoseMeasurement& pose, const std::vector<HeardMessage>& messages,
                               const Observation* observation, double now) {
   host_.add_pose(pose, now);
@@ -135,6 +151,11 @@ void bind_robot(py::module_& module) {
           py::arg("now"),
           "Plans and controls where due, as a dict: wheel_speeds (inputs,) to hold until the next, planned,\n"
           "broadcast (a Message for the peers, or None).")
+      .def("set_goal", &Robot::set_goal, py::arg("goal"), py::arg("heading") = py::none(),
+           "Another goal (2,) [m] from now on, with a heading [rad] or any.")
+      .def("cancel", &Robot::cancel, "No goal any more: it brakes and stands.")
+      .def("set_switches", &Robot::set_switches, py::arg("paused"), py::arg("emergency_stop") = false,
+           "What makes it stand until it is taken back.")
       .def_property_readonly("status", &status_of,
                              "How it stands, as a dict: reason, blocking_id (-1: none).")
       .def_property_readonly(

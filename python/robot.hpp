@@ -7,6 +7,7 @@
 #include "host/robot_host.hpp"
 #include "python/bind.hpp"
 #include "sim/simulation.hpp"
+#include "sim/world.hpp"
 
 namespace spf::python {
 
@@ -21,6 +22,10 @@ class Robot {
   void add_pose(const py::object& time, const py::object& pose, const py::object& now);
   void add_observation(const Observation& observation, const py::object& now);
   void add_message(const HeardMessage& message, const py::object& now);
+  void obey(const sim::FleetOrder& order, const sim::World& world);
+  void set_goal(const py::object& goal, const std::optional<double>& heading);
+  void cancel() { host_.planner().cancel(); }
+  void set_switches(bool paused, bool emergency_stop) { host_.set_switches({emergency_stop, paused}); }
   /// The last command is in wheel_speeds().
   host::RobotOutput step(double now);
   [[nodiscard]] const DriveInput& wheel_speeds() const { return wheel_speeds_; }

@@ -32,6 +32,9 @@ namespace spf::python {
 [[nodiscard]] inline py::object to_python(const Eigen::Vector2d& value) {
   return to_array(value);
 }
+[[nodiscard]] inline py::object to_python(const std::optional<Eigen::Vector2d>& value) {
+  return value ? py::object{to_array(*value)} : py::object{py::none()};
+}
 [[nodiscard]] inline py::object to_python(const MethodChoice& value) {
   return py::str(value.name());
 }

@@ -50,6 +50,7 @@ class GymWorld {
     const std::vector<double> left = distances();
     py::array_t<double> reward(static_cast<py::ssize_t>(left.size()));
     for (std::size_t i = 0; i < left.size(); ++i) reward.mutable_data()[i] = left_[i] - left[i];
+    for (const sim::FleetOrder& order : stepper_.orders()) reward.mutable_data()[order.robot] = 0.0;
     left_ = left;
     const bool finished = stepper_.finished();
     const bool truncated = finished && stepper_.world().time() >= time_limit_of(stepper_.world().scenario());
@@ -124,10 +125,11 @@ class GymWorld {
 
   [[nodiscard]] std::vector<double> distances() const {
     std::vector<double> left;
-    for (std::size_t i = 0; i < robots(); ++i)
-      left.push_back((stepper_.world().scenario().robots[i].goal_world -
-                      stepper_.world().robots()[i].pose.position_world)
-                         .norm());
+    for (std::size_t i = 0; i < robots(); ++i) {
+      const std::optional<host::Goal>& goal = stepper_.world().goal(static_cast<int>(i));
+      left.push_back(goal ? (goal->position_world - stepper_.world().robots()[i].pose.position_world).norm()
+                          : 0.0);
+    }
     return left;
   }
 
@@ -137,7 +139,8 @@ class GymWorld {
     py::array_t<double> goal({count, py::ssize_t{2}});
     for (py::ssize_t i = 0; i < count; ++i) {
       const Pose2& measured = stepper_.poses()[static_cast<std::size_t>(i)].pose_world;
-      const Eigen::Vector2d& to = stepper_.world().scenario().robots[static_cast<std::size_t>(i)].goal_world;
+      const std::optional<host::Goal>& told = stepper_.world().goal(static_cast<int>(i));
+      const Eigen::Vector2d to = told ? told->position_world : Eigen::Vector2d{kAbsent, kAbsent};
       Eigen::Map<Eigen::Vector3d>{pose.mutable_data(i, 0)} << measured.position_world, measured.heading;
       Eigen::Map<Eigen::Vector2d>{goal.mutable_data(i, 0)} = to;
     }
@@ -235,6 +238,8 @@ class Fleet {
   void think() {
     WorldStepper& stepper = world_.stepper();
     if (begun_ != stepper.beginnings()) begin();
+    for (const sim::FleetOrder& order : stepper.orders())
+      robots_[static_cast<std::size_t>(order.robot)].obey(order, stepper.world());
     std::vector<std::pair<int, HeardMessage>> said;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (!stepper.world().robots()[i].active()) continue;
@@ -250,6 +255,18 @@ class Fleet {
   std::vector<Robot> robots_;
   int begun_ = 0;
 };
+
+py::dict order_dict(const sim::FleetOrder& order) {
+  py::dict found;
+  found["robot"] = order.robot;
+  found["do"] = enum_name(order.act);
+  if (order.act == sim::FleetAct::goal) {
+    found["goal"] = to_array(order.goal.position_world);
+    found["heading"] = order.goal.heading;
+  }
+  if (order.act == sim::FleetAct::priority) found["priority"] = order.priority;
+  return found;
+}
 
 void bind_fleet(py::module_& module) {
   py::class_<Fleet>(module, "Fleet", "All robots of a World, as the program drives them.")
@@ -276,7 +293,8 @@ void bind_world(py::module_& module) {
            "the\n"
            "last. `seed` replaces the scenario's. The observation is a dict: time [s]; pose (N, 3) as "
            "measured,\n"
-           "x, y [m], heading [rad]; goal (N, 2) [m]; obstacles (N, M, 5) as each robot has seen them last, "
+           "x, y [m], heading [rad]; goal (N, 2) [m], NaN: none; obstacles (N, M, 5) as each robot has seen "
+           "them last, "
            "x, "
            "y\n[m], their velocity [m/s], radius [m], NaN where there are fewer; observed, whether they are "
            "new.\nThe info is the truth: trial; pose (N, 3), velocity (N, 2) [m/s], arrived (N,), contacts.")
@@ -284,7 +302,8 @@ void bind_world(py::module_& module) {
           "step", &GymWorld::step, py::arg("action"),
           "Holds inputs (N, inputs) until the next pose: rim speeds [m/s] of the wheels, of a car rim speed\n"
           "and steering angle [rad]. Returns (observation, reward, terminated, truncated, info): the reward\n"
-          "(N,) is by how much [m] each robot came nearer to its goal; terminated by a contact or when all\n"
+          "(N,) is by how much [m] each robot came nearer to its goal (0 when it is told another); "
+          "terminated by a contact or when all\n"
           "have arrived, truncated when time is up.")
       .def("robot", &GymWorld::robot, py::arg("number"),
            "A new Robot as the scenario has it, at its start: what drives in trials.")
@@ -308,7 +327,16 @@ void bind_world(py::module_& module) {
             for (const sim::RobotTruth& truth : self.stepper().world().robots()) flags.append(truth.active());
             return flags;
           },
-          "By robot: it is neither wrecked nor gone.");
+          "By robot: it is neither wrecked, nor broken down, nor gone.")
+      .def_property_readonly(
+          "orders",
+          [](const GymWorld& self) {
+            py::list orders;
+            for (const sim::FleetOrder& order : self.stepper().orders()) orders.append(order_dict(order));
+            return orders;
+          },
+          "What robots are told with this step, or befalls them, as dicts: robot, do (a word of scenario\n"
+          "files), and goal (2,) [m] and heading [rad] (None: any) or priority where it has them.");
   bind_fleet(module);
 }
 

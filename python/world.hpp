@@ -26,6 +26,8 @@ class WorldStepper {
   [[nodiscard]] const ScenarioFile& scenario() const { return scenario_; }
   [[nodiscard]] int trial() const { return trial_; }
   /// How often it has begun.
+  /// What robots are told with this step, or befalls them.
+  [[nodiscard]] const std::vector<sim::FleetOrder>& orders() const { return orders_; }
   [[nodiscard]] int beginnings() const { return beginnings_; }
   [[nodiscard]] bool finished() const { return world_->finished(); }
 
@@ -42,6 +44,7 @@ class WorldStepper {
   ScenarioFile scenario_;
   int trial_ = 0;
   int beginnings_ = 0;
+  std::vector<sim::FleetOrder> orders_;
   std::optional<sim::World> world_;
   std::optional<sim::Radio> radio_;
   std::vector<PoseMeasurement> poses_;

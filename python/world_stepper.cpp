@@ -25,6 +25,7 @@ void WorldStepper::reset(int trial) {
   observations_.assign(scene.robots.size(), {});
   messages_.assign(scene.robots.size(), {});
   world_->begin_tick();
+  orders_ = world_->orders();
   sense();
 }
 
@@ -33,10 +34,12 @@ void WorldStepper::step(const std::vector<DriveInput>& inputs) {
   world_->end_tick();
   while (!world_->finished()) {
     world_->begin_tick();
+    orders_ = world_->orders();
     if (world_->pose_due()) return sense();
     world_->end_tick();
   }
   observed_ = false;
+  orders_.clear();
   for (std::vector<HeardMessage>& heard : messages_) heard.clear();
 }
 

@@ -142,11 +142,14 @@ void draw_robot(Drawing& drawing, const ReplayRobot& robot, int index, std::size
   const ReplayPoint here{pose.x, pose.y};
   if (options.trails) {
     std::vector<ReplayPoint> trail;
-    for (std::size_t k = 0; k <= frame; ++k)
-      trail.push_back({robot.frames[k].pose.x, robot.frames[k].pose.y});
+    for (std::size_t k = 0; k <= frame; ++k) {
+      const ReplayPoint at{robot.frames[k].pose.x, robot.frames[k].pose.y};
+      if (is_known(at)) trail.push_back(at);
+    }
     drawing.polyline(thinned(trail, kTrailTolerance),
                      "stroke=\"" + color + "\" stroke-opacity=\"0.45\" stroke-width=\"1.5\"");
   }
+  if (!is_known(here)) return;  // not in the scene
   if (options.plans) {
     std::vector<ReplayPoint> plan = plan_ahead(robot, time);
     plan.insert(plan.begin(), here);
@@ -154,7 +157,7 @@ void draw_robot(Drawing& drawing, const ReplayRobot& robot, int index, std::size
       drawing.polyline(plan, "stroke=\"" + color +
                                  "\" stroke-width=\"2\" stroke-dasharray=\"1 4\" stroke-linecap=\"round\"");
   }
-  drawing.circle(robot.goal, 0.4 * robot.radius,
+  drawing.circle(goal_at(robot, time), 0.4 * robot.radius,
                  "fill=\"none\" stroke=\"" + color + "\" stroke-width=\"1.5\"");
   drawing.circle(here, robot.radius, "fill=\"" + color + "\"");
   const double size = std::clamp(1.1 * drawing.scaled(robot.radius), 7.0, 14.0);

@@ -34,6 +34,13 @@ int state_index(ReplayData& data, std::string_view text, ReplayStateKind kind) {
   return index;
 }
 
+ReplayPoint goal_at(const ReplayRobot& robot, double time) {
+  ReplayPoint goal = robot.goal;
+  for (const ReplayGoal& next : robot.goals)
+    if (next.time <= time) goal = next.position;
+  return goal;
+}
+
 std::size_t frame_count(const ReplayData& data) {
   std::size_t count = 0;
   for (const ReplayRobot& robot : data.robots) count = std::max(count, robot.frames.size());

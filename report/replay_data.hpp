@@ -101,10 +101,17 @@ struct ReplayCellUpdate {
   std::vector<ReplayCell> added, removed;
 };
 
+/// Where a robot is to go from a time on; unknown: nowhere.
+struct ReplayGoal {
+  double time = 0.0;  ///< [s]
+  ReplayPoint position;
+};
+
 struct ReplayRobot {
   int id = 0;
-  double radius = 0.3;  ///< [m]
-  ReplayPoint goal;
+  double radius = 0.3;                   ///< [m]
+  ReplayPoint goal;                      ///< the first
+  std::vector<ReplayGoal> goals;         ///< further ones, times ascending
   std::size_t wheels = 3;                ///< at most 6; of a car 1: its rear axle
   double wheel_speed_limit = kUnknown;   ///< [m/s]
   double sensing_range = kUnknown;       ///< [m]
@@ -168,6 +175,9 @@ struct ReplayData {
 /// Throws std::invalid_argument, with all reasons, when: frame_interval is not positive, bounds span no area,
 /// robot ids repeat, a state is not in the table, robots or obstacles have different numbers of frames.
 void require_consistent(const ReplayData& data);
+
+/// Where the robot is to go at a time [s]; unknown: nowhere.
+[[nodiscard]] ReplayPoint goal_at(const ReplayRobot& robot, double time);
 
 /// Frames of the longest robot or obstacle.
 [[nodiscard]] std::size_t frame_count(const ReplayData& data);

@@ -161,7 +161,10 @@ json robot_json(const ReplayRobot& robot, SharedTexts& texts) {
                        {"added", cells_json(update.added)},
                        {"removed", cells_json(update.removed)}});
   }
-  return {
+  json goals = json::array();
+  for (const ReplayGoal& goal : robot.goals)
+    goals.push_back({{"time", quantised(goal.time, kTimeStep)}, {"at", point(goal.position)}});
+  json whole = {
       {"id", robot.id},
       {"radius", length(robot.radius)},
       {"goal", point(robot.goal)},
@@ -189,6 +192,8 @@ json robot_json(const ReplayRobot& robot, SharedTexts& texts) {
       {"cell_origin", point(robot.cell_origin)},
       {"cells", std::move(updates)},
   };
+  if (!robot.goals.empty()) whole["goals"] = std::move(goals);
+  return whole;
 }
 
 json obstacle_json(const ReplayObstacle& obstacle) {

@@ -86,6 +86,8 @@ void Recorder::frame(const TrialFrame& view) {
     robot.wheel_commands = (*view.wheel_commands)[i];
     robot.status = agent.status();
     robot.wrecked = truth.wrecked;
+    robot.broken = truth.broken;
+    robot.gone = truth.gone;
     robot.control_us = (*view.control_us)[i];
     measure_clearances(view, i, robot);
     for (const ObstacleTrack& track : agent.tracks()) {
@@ -148,6 +150,15 @@ void Recorder::note_contact(const Contact& contact, RecordedEvent::Kind kind) {
 
 void Recorder::arrived(double time, int robot, const Eigen::Vector2d& position_world) {
   recording_->events.push_back({time, robot, RecordedEvent::Kind::arrival, "arrived", -1, position_world});
+}
+
+void Recorder::ordered(double time, const FleetOrder& order, const Eigen::Vector2d& position_world) {
+  recording_->events.push_back(
+      {time, order.robot, RecordedEvent::Kind::order, enum_name(order.act), -1, position_world});
+  if (order.act == FleetAct::goal)
+    recording_->goals.push_back({time, order.robot, order.goal});
+  else if (order.act == FleetAct::cancel)
+    recording_->goals.push_back({time, order.robot, std::nullopt});
 }
 
 void Recorder::note_status(double time, int robot, const AgentStatus& status,

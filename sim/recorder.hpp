@@ -20,6 +20,7 @@ class Recorder : public TrialListener {
   void stopped(double time, const RobotAgent& agent) override;
   void contact(const Contact& contact) override;
   void hit_while_standing(const Contact& contact) override;
+  void ordered(double time, const FleetOrder& order, const Eigen::Vector2d& position_world) override;
   void arrived(double time, int robot, const Eigen::Vector2d& position_world) override;
 
   [[nodiscard]] std::shared_ptr<const Recording> take() { return std::move(recording_); }

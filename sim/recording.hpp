@@ -31,6 +31,8 @@ struct RecordedRobot {
   DriveInput wheel_commands;  ///< as commanded
   AgentStatus status;
   bool wrecked = false;
+  bool broken = false;  ///< down, until it is repaired
+  bool gone = false;    ///< not in the scene
   RecordedClearance to_dynamic, to_peer, to_static;
   double control_us = 0.0;  ///< [us] of the last control tick, 0 without a clock
   std::vector<RecordedTrack> tracks;
@@ -82,13 +84,20 @@ struct RecordedCells {
 };
 
 struct RecordedEvent {
-  enum class Kind { contact, hit_while_standing, stop, go, arrival };
+  enum class Kind { contact, hit_while_standing, stop, go, arrival, order };
   double time = 0.0;  ///< [s]
   int robot = -1;
   Kind kind = Kind::stop;
   std::string text;                                          ///< the stop cause, or what was touched
   int other = -1;                                            ///< id of what blocks or was touched, -1 = none
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m] of the robot
+};
+
+/// Another goal of a robot from a time on.
+struct RecordedGoal {
+  double time = 0.0;  ///< [s]
+  int robot = 0;
+  std::optional<host::Goal> goal;  ///< none: it is to go nowhere
 };
 
 struct Recording {
@@ -99,6 +108,7 @@ struct Recording {
   std::vector<RecordedPlan> plans;    ///< by time
   std::vector<RecordedCells> cells;   ///< by time
   std::vector<RecordedEvent> events;  ///< by time
+  std::vector<RecordedGoal> goals;    ///< by time, after the first ones
 };
 
 }  // namespace spf::sim

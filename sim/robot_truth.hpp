@@ -11,12 +11,15 @@ struct RobotTruth {
   Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  ///< [m/s]
   Motion motion;                                             ///< over the last tick
   double radius = 0.3;                                       ///< [m]
-  bool arrived = false;                                      ///< has reached its goal once
+  bool arrived = false;                                      ///< has reached the goal that it was told last
   bool wrecked = false;                                      ///< disabled by a contact (AfterContact::wreck)
-  bool gone = false;                                         ///< has left the scene (AfterArrival::leave)
+  bool gone = false;     ///< is not in the scene: has left it, or has not joined yet
+  bool broken = false;   ///< stands silent until it is repaired
+  bool paused = false;   ///< told to
+  bool stopped = false;  ///< emergency stop
 
   /// Senses, drives and is present.
-  [[nodiscard]] bool active() const { return !wrecked && !gone; }
+  [[nodiscard]] bool active() const { return !wrecked && !gone && !broken; }
 };
 
 }  // namespace spf::sim

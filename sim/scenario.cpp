@@ -9,6 +9,7 @@
 #include "sim/polygon_check.hpp"
 #include "sim/uniform_grid.hpp"
 #include "sim/walkers.hpp"
+#include "spf/math/index.hpp"
 #include "spf/math/polygon.hpp"
 #include "spf/math/random_stream.hpp"
 
@@ -225,6 +226,9 @@ void check_robots(Report& report, const Scenario& scenario) {
     const double radius = scenario.robot_of(i).radius;
     check_position(report, entry("robots", i, ".start"), task.start.position_world, radius, scenario, ground);
     check_position(report, entry("robots", i, ".goal"), task.goal_world, radius, scenario, ground);
+    for (std::size_t k = 0; k < task.next_goals.size(); ++k)
+      check_position(report, entry("robots", i, entry(".next_goals", k).c_str()),
+                     task.next_goals[k].position_world, radius, scenario, ground);
     if (!std::isfinite(task.start.heading))
       report.add(entry("robots", i, ".start"), "heading must be finite");
     if (task.goal_heading && !std::isfinite(*task.goal_heading))
@@ -256,10 +260,37 @@ void check_robots(Report& report, const Scenario& scenario) {
     grid.visit(starts[i], largest_sum, [&](int other) {
       const std::size_t j = static_cast<std::size_t>(other);
       const double gap = (starts[i] - starts[j]).norm();
-      if (j < i && gap < scenario.robot_of(i).radius + scenario.robot_of(j).radius)
+      const bool both = !joins_later(scenario, i) && !joins_later(scenario, j);
+      if (both && j < i && gap < scenario.robot_of(i).radius + scenario.robot_of(j).radius)
         inside.add(gap, "robots", j);
     });
     report_overlap(report, i, inside);
+  }
+}
+
+void check_events(Report& report, const Scenario& scenario) {
+  const int robots = static_cast<int>(scenario.robots.size());
+  const Ground ground{scenario};
+  for (std::size_t i = 0; i < scenario.events.size(); ++i) {
+    const FleetEvent& event = scenario.events[i];
+    const int robot = event.order.robot;
+    if (!(event.time >= 0.0 && std::isfinite(event.time)))
+      report.add(entry("events", i, ".at"), "must be a time of 0 s or more");
+    if (event.after_robot >= robots)
+      report.add(entry("events", i, ".after.robot"), "must be below ", robots, ", the number of robots");
+    if (robot < 0 || robot >= robots) {
+      report.add(entry("events", i, ".robot"), "must be below ", robots, ", the number of robots");
+      continue;
+    }
+    if (event.order.act != FleetAct::goal) continue;
+    const Eigen::Vector2d& goal = event.order.goal.position_world;
+    if (!goal.allFinite())
+      report.add(entry("events", i, ".goal"), "must say where to");
+    else
+      check_position(report, entry("events", i, ".goal"), goal, scenario.robot_of(as_index(robot)).radius,
+                     scenario, ground);
+    if (!std::isfinite(event.order.goal.heading.value_or(0.0)))
+      report.add(entry("events", i, ".goal_heading"), "must be finite");
   }
 }
 
@@ -289,6 +320,7 @@ std::vector<ScenarioProblem> problems_of(const Scenario& scenario) {
   check_shapes(report, scenario);
   if (report.none()) check_people(report, scenario);
   check_robots(report, scenario);
+  check_events(report, scenario);
   return report.take();
 }
 
@@ -317,6 +349,21 @@ double slowest_time_of(const Scenario& scenario) {
                                                   robot.max_speed, robot.max_acceleration));
   }
   return slowest;
+}
+
+bool has_life(const Scenario& scenario) {
+  return scenario.simulation.trial.goals != GoalSupply::listed || !scenario.events.empty() ||
+         std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                     [](const RobotTask& task) { return !task.next_goals.empty(); });
+}
+
+bool joins_later(const Scenario& scenario, std::size_t robot) {
+  for (const FleetEvent& event : scenario.events) {
+    if (event.order.robot != static_cast<int>(robot)) continue;
+    if (event.order.act == FleetAct::join) return true;
+    if (event.order.act == FleetAct::leave) return false;
+  }
+  return false;
 }
 
 double time_limit_of(const Scenario& scenario) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/fleet_event.hpp"
 #include "sim/person_task.hpp"
 #include "sim/segment.hpp"
 #include "sim/simulation_parameters.hpp"
@@ -41,6 +42,7 @@ struct RobotTask {
   Eigen::Vector2d goal_world = Eigen::Vector2d::Zero();  ///< [m]
   std::optional<double> goal_heading;                    ///< [rad], free when absent
   std::size_t kind = 0;                                  ///< of Scenario::fleet, where that names kinds
+  std::vector<host::Goal> next_goals = {};               ///< after the first, one after the other
 };
 
 /// One sample of a recorded crowd: a person is a disc that moves linearly between its samples, present from
@@ -75,6 +77,7 @@ struct Scenario {
   std::vector<RobotTask> robots;
   RobotParameters robot;               ///< of all robots, unless there are kinds of them
   std::vector<RobotParameters> fleet;  ///< the kinds of robots; empty: all are alike
+  std::vector<FleetEvent> events;      ///< what happens to robots while the trial runs
   SimulationParameters simulation;
 
   /// Parameters of the robot `number`.
@@ -109,6 +112,11 @@ struct ScenarioProblem {
 /// Time of the fastest motion to the goal [s] of the robot that needs the longest, were there no obstacles.
 [[nodiscard]] double slowest_time_of(const Scenario& scenario);
 
+/// Whether robots do more than go to one goal each.
+[[nodiscard]] bool has_life(const Scenario& scenario);
+/// Whether the robot is not there at first, since it joins later.
+[[nodiscard]] bool joins_later(const Scenario& scenario, std::size_t robot);
+
 /// Gives the robots the kinds of the fleet one after the other, from the first again after the last.
 void give_kinds_in_turn(Scenario& scenario);
 
@@ -125,6 +133,7 @@ enum class StreamRole : std::uint64_t {
   scan = 0x5343414E'00000000ULL,
   radio = 0x52414449'00000000ULL,
   people = 0x50454F50'00000000ULL,
+  goal = 0x474F414C'00000000ULL,
 };
 /// Seed of the stream of one role and index in a trial.
 [[nodiscard]] std::uint64_t stream_seed(const Scenario& scenario, StreamRole role, std::uint64_t index);

@@ -5,6 +5,7 @@
 
 #include "sim/geometry.hpp"
 #include "spf/math/angles.hpp"
+#include "spf/math/index.hpp"
 
 namespace spf::sim {
 namespace {
@@ -65,7 +66,9 @@ void Sensing::observe(int robot, const Pose2& true_pose_world, const Surrounding
   observation.detections.clear();
   const bool scans = parameters_.detections == DetectionQuality::scan;
   const bool scans_needed = scans || parameters_.map == MapKnowledge::sensed;
-  if (scans_needed || !surroundings.dynamic_obstacles->empty() || parameters_.peer_detection_range > 0.0)
+  const bool broken = surroundings.broken != nullptr && !surroundings.broken->empty();
+  if (scans_needed || broken || !surroundings.dynamic_obstacles->empty() ||
+      parameters_.peer_detection_range > 0.0)
     gather_bodies(robot, true_pose_world.position_world, surroundings);
   if (!scans) detect_all(robot, true_pose_world.position_world, surroundings, observation);
   if (scans_needed) {
@@ -105,20 +108,32 @@ void Sensing::detect_all(int robot, const Eigen::Vector2d& from, const Surroundi
     observation.detections.push_back(
         detect(robot, obstacle.id, position, obstacle.velocity_world, obstacle.radius));
   }
+  const std::vector<int> none;
+  const std::vector<int>& broken = surroundings.broken != nullptr ? *surroundings.broken : none;
+  for (const int peer : broken)
+    if (peer != robot && ((*surroundings.robots)[as_index(peer)] - from).norm() <= parameters_.range)
+      detect_peer(robot, peer, from, surroundings, observation);
   const double reach = parameters_.peer_detection_range;
   if (reach <= 0.0) return;
   const auto first_peer = static_cast<std::ptrdiff_t>(observation.detections.size());
   surroundings.robot_grid->visit(from, reach, [&](int peer) {
-    const Eigen::Vector2d& position = (*surroundings.robots)[static_cast<std::size_t>(peer)];
-    if (peer == robot || (position - from).norm() > reach) return;
-    const double radius = radii_[static_cast<std::size_t>(peer)];
-    if (!range_sensor_.sees(from, {position, radius}, bodies_)) return;
-    Detection detection = detect(robot, kPeerDetectionId + peer, position, Eigen::Vector2d::Zero(), radius);
-    detection.velocity_world.reset();  // detected, not broadcast: the tracker has to estimate it
-    observation.detections.push_back(detection);
+    const double gap = ((*surroundings.robots)[as_index(peer)] - from).norm();
+    if (peer == robot || gap > reach || std::binary_search(broken.begin(), broken.end(), peer)) return;
+    detect_peer(robot, peer, from, surroundings, observation);
   });
   std::sort(observation.detections.begin() + first_peer, observation.detections.end(),
             [](const Detection& a, const Detection& b) { return a.id < b.id; });
+}
+
+/// As something of unknown intent.
+void Sensing::detect_peer(int robot, int peer, const Eigen::Vector2d& from, const Surroundings& surroundings,
+                          Observation& observation) {
+  const Eigen::Vector2d& position = (*surroundings.robots)[as_index(peer)];
+  const double radius = radii_[as_index(peer)];
+  if (!range_sensor_.sees(from, {position, radius}, bodies_)) return;
+  Detection detection = detect(robot, kPeerDetectionId + peer, position, Eigen::Vector2d::Zero(), radius);
+  detection.velocity_world.reset();  // detected, not broadcast: the tracker has to estimate it
+  observation.detections.push_back(detection);
 }
 
 /// What moves and stands in the way of sight: nobody sees through bodies.

@@ -24,6 +24,7 @@ struct Surroundings {
   const std::vector<DynamicObstacle>* dynamic_obstacles = nullptr;
   const std::vector<Eigen::Vector2d>* robots = nullptr;  ///< [m] centres
   const UniformGrid* robot_grid = nullptr;               ///< over `robots`
+  const std::vector<int>* broken = nullptr;              ///< robots that nobody hears of, sorted; null: none
 };
 
 class Sensing {
@@ -52,6 +53,8 @@ class Sensing {
                                  const Eigen::Vector2d& velocity, double radius) const;
   void detect_all(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings,
                   Observation& observation);
+  void detect_peer(int robot, int peer, const Eigen::Vector2d& from, const Surroundings& surroundings,
+                   Observation& observation);
   void gather_bodies(int robot, const Eigen::Vector2d& from, const Surroundings& surroundings);
   void scan(int robot, const Pose2& true_pose_world, RangeScan& scan);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/agent_meter.hpp"
+#include "sim/fleet_order.hpp"
 #include "sim/radio.hpp"
 #include "sim/recorder.hpp"
 #include "sim/world.hpp"
@@ -82,6 +83,7 @@ struct Simulation::Implementation {
 
   SimulationOptions options;
   World world;
+  OccupancyMap map;  // that robots begin with
   std::vector<host::RobotHost> robots;
   std::vector<Drive> drives;             // by robot
   std::vector<DriveInput> wheel_speeds;  // true; filled for listeners
@@ -95,16 +97,17 @@ struct Simulation::Implementation {
   std::size_t hits_seen = 0;
   bool stopped_by_caller = false;
   std::vector<double> last_control_us;  // by robot
-  std::vector<float> plan_ms;
-  std::vector<float> control_us;
 };
 
 Simulation::Implementation::Implementation(const Scenario& scenario,
                                            const std::vector<AgentParameters>& agents,
                                            const SimulationOptions& given_options)
-    : options{given_options}, world{scenario}, radio{scenario}, meter{scenario.robots.size()} {
+    : options{given_options},
+      world{scenario},
+      map{robot_map(scenario)},
+      radio{scenario},
+      meter{scenario.robots.size()} {
   const std::vector<Crew> crews = crews_of(scenario, agents);
-  const OccupancyMap map = robot_map(scenario);
   if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame());
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
     if (listener != nullptr) listeners.push_back(listener);
@@ -127,6 +130,11 @@ Simulation::Implementation::Implementation(const Scenario& scenario,
 
 void Simulation::Implementation::begin() {
   world.begin_tick();
+  for (const FleetOrder& order : world.orders()) {
+    obey(order, world, map, robots[as_index(order.robot)]);
+    for (TrialListener* listener : listeners)
+      listener->ordered(now(), order, world.positions()[as_index(order.robot)]);
+  }
   if (world.step_due() && options.progress && !options.progress(now())) stopped_by_caller = true;
 }
 
@@ -170,6 +178,7 @@ void Simulation::Implementation::think() {
     if (world.robots()[i].active()) conclude(i);
     RobotInput& input = desks[i].input;
     input.messages.clear();
+    if (!world.robots()[i].active()) desks[i].waiting.clear();
     for (host::SensedWorld& seen : input.seen) desks[i].spare.push_back(std::move(seen));
     input.seen.clear();
   }
@@ -227,7 +236,6 @@ void Simulation::Implementation::conclude(std::size_t robot) {
   const Desk& desk = desks[robot];
   for (TrialListener* listener : listeners) listener->thought(now(), id, desk.input, desk.action);
   if (desk.action.asked_planner) {
-    if (options.clock) plan_ms.push_back(static_cast<float>(1e3 * desk.plan_seconds));
     meter.planned(id, agent.last_plan());
     for (TrialListener* listener : listeners) listener->planned(now(), agent, 1e3 * desk.plan_seconds);
   } else if (desk.action.planned) {
@@ -236,10 +244,8 @@ void Simulation::Implementation::conclude(std::size_t robot) {
   if (desk.told) radio.send(now(), *desk.told, world.positions()[robot]);
   if (desk.action.controlled) {
     world.command(id, desk.action.wheel_speeds);
-    if (options.clock) {
-      last_control_us[robot] = 1e6 * desk.control_seconds;
-      control_us.push_back(static_cast<float>(last_control_us[robot]));
-    }
+    if (options.clock) last_control_us[robot] = 1e6 * desk.control_seconds;
+    for (TrialListener* listener : listeners) listener->controlled(now(), id, last_control_us[robot]);
   }
   meter.stood(id, agent.status(), world.pose_interval());
 }
@@ -307,8 +313,6 @@ TrialResult Simulation::Implementation::result() {
     result.robots[i].guard_stops = static_cast<int>(guard->counts().stops);
     result.robots[i].guard_held = guard->counts().held_time;
   }
-  result.plan_ms = std::move(plan_ms);
-  result.control_us = std::move(control_us);
   result.messages = radio.messages_sent();
   if (recorder) result.recording = recorder->take();
   return result;

@@ -33,6 +33,11 @@ enum class AfterArrival {
   stay,   ///< at its goal, and goes on dodging
   leave,  ///< the scene: the robot is gone
 };
+enum class GoalSupply {
+  listed,    ///< each robot's list, then it has arrived
+  repeated,  ///< the list again and again
+  drawn,     ///< after the list places drawn anew, without end
+};
 enum class TrackingMode {
   ideal,  ///< the robot is at its trajectory's point
   full,   ///< observer, controller, wheel limits and motor lag
@@ -69,6 +74,13 @@ template <>
 struct EnumNames<sim::AfterArrival> {
   static constexpr std::array<std::pair<sim::AfterArrival, const char*>, 2> values{
       {{sim::AfterArrival::stay, "stay"}, {sim::AfterArrival::leave, "leave"}}};
+};
+template <>
+struct EnumNames<sim::GoalSupply> {
+  static constexpr std::array<std::pair<sim::GoalSupply, const char*>, 3> values{
+      {{sim::GoalSupply::listed, "listed"},
+       {sim::GoalSupply::repeated, "repeated"},
+       {sim::GoalSupply::drawn, "drawn"}}};
 };
 template <>
 struct EnumNames<sim::TrackingMode> {
@@ -173,6 +185,8 @@ struct TrialParameters {
   TrackingMode tracking = TrackingMode::full;
   AfterContact after_contact = AfterContact::end;
   AfterArrival after_arrival = AfterArrival::stay;
+  GoalSupply goals = GoalSupply::listed;
+  double goal_pause = 0.0;        ///< [s] at a goal before the next one is given
   double plant_rate = 200.0;      ///< [Hz] base tick: plant steps and contact sweeps; a multiple of 10
   double computing_delay = 0.0;   ///< [s] what planning knows of obstacles and peers is older by this
   double time_limit = 0.0;        ///< [s] 0 = the protocol's: max(120 s, 4 times the obstacle-free time)
@@ -186,6 +200,12 @@ struct TrialParameters {
     visit("after_contact", self.after_contact,
           "a contact ends the trial, leaves wrecks behind, or is counted and all go on");
     visit("after_arrival", self.after_arrival, "robots stay at their goals, or leave the scene");
+    visit(
+        "goals", self.goals,
+        "listed: every robot has arrived at the last of its goals; repeated: it begins with the first again; "
+        "drawn: goals are drawn without end");
+    visit("goal_pause", self.goal_pause, "s", Range{0.0, 10000.0},
+          "time at a goal before the robot is told the next one");
     visit("plant_rate", self.plant_rate, "Hz", Range{50.0, 5000.0},
           "steps of the plant and of the contact sweep");
     visit("computing_delay", self.computing_delay, "s", Range{0.0, 5.0},

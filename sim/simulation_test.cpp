@@ -49,7 +49,6 @@ TEST_P(Tracking, ALoneRobotArrivesByTheStraightPath) {
   EXPECT_NEAR(result.robots[0].path_length_ratio, 0.99, 0.02);  // it has arrived 0.1 m before the goal
   EXPECT_EQ(result.last_arrival, result.robots[0].travel_time);
   EXPECT_TRUE(std::isinf(result.dynamic_distance));
-  EXPECT_TRUE(result.plan_ms.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Tracking, testing::Values(TrackingMode::ideal, TrackingMode::full),
@@ -65,12 +64,19 @@ TEST(Simulation, RepeatsBitForBitAndTakesNoNoticeOfClockOrRecording) {
   options.record = true;
   double seconds = 0.0;
   options.clock = [&seconds] { return seconds += 1e-6; };
+  struct Timings : TrialListener {
+    void planned(double /*time*/, const RobotAgent& /*agent*/, double plan_ms) override { plans += plan_ms; }
+    void controlled(double /*time*/, int /*robot*/, double control_us) override { ticks += control_us; }
+    double plans = 0.0;  // [ms]
+    double ticks = 0.0;  // [us]
+  } timings;
+  options.listener = &timings;
   const TrialResult watched = run(scenario, options);
   EXPECT_NE(first.digest, 0U);
   EXPECT_EQ(first.digest, again.digest);
   EXPECT_EQ(first.digest, watched.digest);
-  EXPECT_FALSE(watched.plan_ms.empty());
-  EXPECT_FALSE(watched.control_us.empty());
+  EXPECT_GT(timings.plans, 0.0);
+  EXPECT_GT(timings.ticks, 0.0);
   EXPECT_GT(watched.wall_seconds, 0.0);
 
   scenario.seed += 1;
@@ -295,7 +301,6 @@ TEST(Simulation, CountsTheCallsOfThePlannerAlone) {
   EXPECT_GT(listener.stops, 10);
   EXPECT_GT(sums.calls, 10);
   EXPECT_EQ(listener.plans, sums.calls);
-  EXPECT_EQ(result.plan_ms.size(), static_cast<std::size_t>(sums.calls));
   EXPECT_EQ(result.robots[0].plans, sums.calls);
   EXPECT_EQ(result.robots[0].failed_plans, sums.failed);
   EXPECT_EQ(result.robots[0].optimiser_calls, sums.optimiser_calls);

@@ -7,6 +7,7 @@
 #include "host/robot_host.hpp"
 #include "sim/contact.hpp"
 #include "sim/dynamic_obstacles.hpp"
+#include "sim/fleet_event.hpp"
 #include "sim/robot_truth.hpp"
 
 namespace spf::sim {
@@ -51,12 +52,17 @@ class TrialListener {
   /// A robot has asked its planner, which took `plan_ms` [ms] (0 without a clock); the result is the agent's
   /// last_plan().
   virtual void planned(double /*time*/, const RobotAgent&, double /*plan_ms*/) {}
+  /// A robot has controlled, which took `control_us` [us] with the poses since the last time (0 without a
+  /// clock).
+  virtual void controlled(double /*time*/, int /*robot*/, double /*control_us*/) {}
   /// A robot was to plan but has to stop, for the agent's stop_cause(): its planner was not asked.
   virtual void stopped(double /*time*/, const RobotAgent&) {}
   /// Robots touched something, by time.
   virtual void contact(const Contact&) {}
   /// A recorded person, who does not react, walked into a robot that stood still.
   virtual void hit_while_standing(const Contact&) {}
+  /// A robot is told something, or something befalls it.
+  virtual void ordered(double /*time*/, const FleetOrder&, const Eigen::Vector2d& /*position_world*/) {}
   virtual void arrived(double /*time*/, int /*robot*/, const Eigen::Vector2d& /*position_world*/) {}
 };
 

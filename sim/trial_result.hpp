@@ -35,16 +35,27 @@ namespace spf::sim {
   return enum_name(outcome);
 }
 
-/// Of one robot. Lengths and times count until it first arrived, or to the end of the trial.
+/// What a robot did in all, on its ways to one goal or more.
+struct RobotLife {
+  int goals_reached = 0;
+  double last_arrival = 0.0;   ///< [s] of the trial, at its last goal so far
+  double present_time = 0.0;   ///< [s] in the scene
+  double longest_stand = 0.0;  ///< [s] at a stretch, with a goal to go to and not told to stand
+};
+
+/// Of one robot. Lengths and times count while it is on its way to a goal, so until it arrived or to the end
+/// of the trial; ratios are over all its ways.
 struct RobotResult {
   bool arrived = false;
   bool wrecked = false;
-  bool touched = false;              ///< had a contact that counts
-  bool in_time = false;              ///< arrived no later than the trial's latest_arrival
-  double travel_time = 0.0;          ///< [s]
-  double path_length = 0.0;          ///< [m] of the true path
-  double travel_time_ratio = 0.0;    ///< [1] over the obstacle-free rest-to-rest optimum
-  double path_length_ratio = 0.0;    ///< [1] over the straight line
+  bool touched = false;            ///< had a contact that counts
+  bool in_time = false;            ///< arrived no later than the trial's latest_arrival
+  bool excused = false;            ///< nothing more was asked of it: no goal, taken away, or broken
+  double travel_time = 0.0;        ///< [s]
+  double path_length = 0.0;        ///< [m] of the true path
+  double travel_time_ratio = 0.0;  ///< [1] over the obstacle-free rest-to-rest optimum
+  double path_length_ratio = 0.0;  ///< [1] over the straight line
+  RobotLife life;
   int plans = 0;                     ///< calls of the planner
   int failed_plans = 0;              ///< those whose outcome is not success or goal_reached
   std::int64_t optimiser_calls = 0;  ///< L-BFGS runs (the paper's iterations)
@@ -69,11 +80,8 @@ struct TrialResult {
   double static_clearance = 0.0;   ///< [m] least gap to static shapes and border
   double sim_seconds = 0.0;        ///< [s] simulated
   double wall_seconds = 0.0;       ///< [s] by the caller's clock, 0 without
-  std::vector<float> plan_ms;  ///< [ms] every planning call with what it had to take in; empty without clock
-  std::vector<float>
-      control_us;              ///< [us] every control tick with the poses since the last; empty without clock
-  std::uint64_t messages = 0;  ///< broadcasts sent
-  std::uint64_t digest = 0;    ///< hash over the bits of all positions at every 0.1 s
+  std::uint64_t messages = 0;      ///< broadcasts sent
+  std::uint64_t digest = 0;        ///< hash over the bits of all positions at every 0.1 s
   std::shared_ptr<const Recording> recording;  ///< null unless asked for
 };
 

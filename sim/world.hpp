@@ -7,6 +7,7 @@
 
 #include "sim/contact_monitor.hpp"
 #include "sim/dynamic_obstacles.hpp"
+#include "sim/fleet_life.hpp"
 #include "sim/robot_truth.hpp"
 #include "sim/sensing.hpp"
 #include "sim/trial_meter.hpp"
@@ -20,8 +21,8 @@ class World {
   /// Throws std::invalid_argument with all reasons when the scenario cannot be used.
   explicit World(const Scenario& scenario);
 
-  // One tick, in the order of docs/protocol.md: begin_tick(); whatever is due is sensed and commanded;
-  // end_tick(). A host may go on after finished().
+  // One tick, in the order of docs/protocol.md: begin_tick(); robots obey orders(); whatever is due is sensed
+  // and commanded; end_tick(). A host may go on after finished().
   void begin_tick();
   /// Moves the robots, checks for contacts, records arrivals and advances the time by one tick. Throws
   /// std::runtime_error when a robot's position is no longer finite.
@@ -30,11 +31,11 @@ class World {
   [[nodiscard]] double time() const { return static_cast<double>(tick_) / plant_rate_; }           ///< [s]
   [[nodiscard]] double next_time() const { return static_cast<double>(tick_ + 1) / plant_rate_; }  ///< [s]
   /// Whether the dynamic obstacles begin a step of 0.1 s with this tick.
-  [[nodiscard]] bool step_due() const { return tick_ % step_ticks_ == 0; }
-  [[nodiscard]] bool pose_due() const { return tick_ % pose_ticks_ == 0; }
+  [[nodiscard]] bool step_due() const { return tick_ % ticks_.step == 0; }
+  [[nodiscard]] bool pose_due() const { return tick_ % ticks_.pose == 0; }
   [[nodiscard]] bool observation_due() const { return observation_due_; }
   [[nodiscard]] double pose_interval() const {
-    return static_cast<double>(pose_ticks_) / plant_rate_;
+    return static_cast<double>(ticks_.pose) / plant_rate_;
   }  ///< [s]
   /// Share of the obstacles' step at the beginning of the tick, in [0, 1).
   [[nodiscard]] double share() const { return share_at(tick_); }
@@ -44,8 +45,11 @@ class World {
   /// Likewise, into `observation`, whose memory is reused.
   void observe(int robot, Observation& observation);
 
-  /// Commanded wheel speeds [m/s], held until the next call (TrackingMode::full).
-  void command(int robot, const DriveInput& wheel_speeds) { commands_[as_index(robot)] = wheel_speeds; }
+  /// Commanded wheel speeds [m/s], held until the next call (TrackingMode::full). A robot that is not active
+  /// takes none.
+  void command(int robot, const DriveInput& wheel_speeds) {
+    if (robots_[as_index(robot)].active()) commands_[as_index(robot)] = wheel_speeds;
+  }
   /// Sets the robot's pose and velocity at the end of the tick (TrackingMode::ideal).
   void place(int robot, const Pose2& pose_world, const Eigen::Vector2d& velocity_world);
 
@@ -69,6 +73,14 @@ class World {
     return grid_;
   }  ///< over positions(), since a pose tick
 
+  /// What robots are told, or befalls them, at the beginning of this tick (fleet_order.hpp); only where poses
+  /// are due.
+  [[nodiscard]] const std::vector<FleetOrder>& orders() const { return life_.orders; }
+  /// Where the robot is to go, or has arrived; none when it is to go nowhere.
+  [[nodiscard]] const std::optional<host::Goal>& goal(int robot) const {
+    return meter_.goals()[as_index(robot)];
+  }
+
   // Events by time; arrivals are those of the last tick.
   [[nodiscard]] const std::vector<Contact>& contacts() const { return monitor_.contacts(); }
   [[nodiscard]] const std::vector<Contact>& hits_while_standing() const {
@@ -82,16 +94,22 @@ class World {
     Eigen::Vector2d velocity_world = Eigen::Vector2d::Zero();  // [m/s]
   };
   [[nodiscard]] double share_at(long tick) const {
-    return static_cast<double>(tick % step_ticks_) / static_cast<double>(step_ticks_);
+    return static_cast<double>(tick % ticks_.step) / static_cast<double>(ticks_.step);
   }
+  void obey(const FleetOrder& order);
+  void note_broken();
+  [[nodiscard]] bool possible(const FleetOrder& order) const;
   void move();
+  void move(std::size_t robot);
   void check();
 
   Scenario scenario_;
   double plant_rate_;  // [Hz]
-  long step_ticks_;    // of the dynamic obstacles
-  long pose_ticks_;
-  long observation_ticks_;
+  struct {
+    long step;  // of the dynamic obstacles
+    long pose;
+    long observation;
+  } ticks_;
   double time_limit_;  // [s]
 
   long tick_ = 0;
@@ -108,6 +126,11 @@ class World {
   Sensing sensing_;
   ContactMonitor monitor_;
   TrialMeter meter_;
+  struct {
+    FleetLife events;
+    std::vector<FleetOrder> orders = {};  // of this tick
+    std::vector<int> broken = {};         // robots, sorted
+  } life_;
 };
 
 }  // namespace spf::sim

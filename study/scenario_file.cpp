@@ -18,6 +18,7 @@
 #include "sim/pedestrian_scene.hpp"
 #include "sim/simulation.hpp"
 #include "spf/robot/robot_scale.hpp"
+#include "study/explicit_scene.hpp"
 
 namespace spf {
 namespace {
@@ -60,7 +61,9 @@ RunConfiguration read_keys(const YamlNode& root, const MethodTable& methods, Inp
   RunConfiguration::visit_head(head, reader);
   head.robot = default_run_configuration(head.family, head.method).robot;
   keys = keys_of(head);
-  std::erase_if(keys, [](const std::string& key) { return key.rfind("fleet[].", 0) == 0; });
+  std::erase_if(keys, [](const std::string& key) {
+    return key.rfind("fleet[].", 0) == 0 || key.rfind("events[].", 0) == 0;
+  });
   reader.group("robot", head.robot);
   RunConfiguration config = default_run_configuration(head.family, head.method, head.robot);
   config.seed = head.seed;
@@ -70,106 +73,6 @@ RunConfiguration read_keys(const YamlNode& root, const MethodTable& methods, Inp
   RunConfiguration::visit_fleet(config, reader);
   reader.finish();
   return config;
-}
-
-double heading_of(const RobotEntry& entry) {
-  if (entry.heading) return *entry.heading;
-  const Eigen::Vector2d to_goal = entry.goal - entry.start;
-  if (!to_goal.allFinite()) return 0.0;
-  return std::atan2(to_goal.y(), to_goal.x());
-}
-
-std::vector<RobotParameters> robots_of(const std::vector<RobotKind>& fleet) {
-  std::vector<RobotParameters> robots;
-  for (const RobotKind& kind : fleet) robots.push_back(kind.robot);
-  return robots;
-}
-
-sim::Scenario explicit_scenario(const RunConfiguration& config) {
-  sim::Scenario scenario;
-  scenario.family = enum_name(kExplicitScene);
-  scenario.seed = config.seed;
-  scenario.robot = config.robot;
-  scenario.fleet = robots_of(config.fleet);
-  scenario.simulation = config.simulation;
-  if (config.scene.border) scenario.border = sim::Box{config.scene.border->low, config.scene.border->high};
-  for (const BoxEntry& box : config.scene.boxes) scenario.boxes.push_back({box.low, box.high});
-  for (const DiscEntry& disc : config.scene.discs) scenario.discs.push_back({disc.center, disc.radius});
-  for (const WallEntry& wall : config.scene.walls) scenario.walls.push_back({wall.from, wall.to});
-  for (const PolygonEntry& polygon : config.scene.polygons) scenario.polygons.push_back({polygon.corners});
-  scenario.map = config.map;
-  for (const WallEntry& seam : config.scene.seams) scenario.seams.push_back({seam.from, seam.to});
-  for (const MovingEntry& disc : config.scene.moving)
-    scenario.moving.push_back({disc.position, disc.velocity, disc.radius});
-  for (const PersonEntry& person : config.scene.people) scenario.people.push_back(person.task);
-  for (const RobotEntry& robot : config.scene.robots)
-    scenario.robots.push_back({{robot.start, heading_of(robot)}, robot.goal, robot.goal_heading});
-  give_kinds_in_turn(scenario);
-  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
-    if (config.scene.robots[i].kind != kInTurn)
-      scenario.robots[i].kind = static_cast<std::size_t>(config.scene.robots[i].kind);
-  return scenario;
-}
-
-std::string entry(const char* list, std::size_t index, const char* member) {
-  return std::string{list} + "[" + std::to_string(index) + "]" + member;
-}
-
-/// Rules of a file besides those of the simulator: goals apart, since robots stay at theirs; discs inside the
-/// border.
-std::vector<sim::ScenarioProblem> more_problems_of(const sim::Scenario& scenario) {
-  std::vector<sim::ScenarioProblem> found;
-  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
-    std::string first, nearest;  // of the goals that are too near; further ones are counted
-    std::size_t others = 0;
-    for (std::size_t j = 0; j < i; ++j) {
-      const double gap = (scenario.robots[i].goal_world - scenario.robots[j].goal_world).norm();
-      const double sum = scenario.robot_of(i).radius + scenario.robot_of(j).radius;
-      if (!(gap < sum)) continue;
-      if (first.empty()) {
-        nearest = entry("robots", j, ".goal");
-        first = "is " + to_text(gap) + " m from " + entry("robots", j, ".goal") +
-                ", less than their radii, " + to_text(sum) + " m";
-      } else {
-        ++others;
-      }
-    }
-    if (others > 0) first += " (and " + std::to_string(others) + " more)";
-    if (!first.empty())
-      found.push_back({entry("robots", i, ".goal"), std::move(first), "", std::move(nearest)});
-  }
-  for (std::size_t i = 0; i < scenario.moving.size() && scenario.border; ++i) {
-    const ObstacleState& disc = scenario.moving[i];
-    const double depth = std::min((disc.position_world - scenario.border->low).minCoeff(),
-                                  (scenario.border->high - disc.position_world).minCoeff());
-    if (depth < disc.radius)
-      found.push_back({entry("moving", i, ".position"),
-                       "must lie inside the border by its radius, " + to_text(disc.radius) + " m", "",
-                       "border"});
-  }
-  return found;
-}
-
-/// Checks an explicit scene. A refused value has been replaced by a default, about which nothing more is
-/// reported.
-void check_explicit(const YamlNode& root, const RunConfiguration& config, InputProblems& problems) {
-  const InputProblems refused = problems;
-  const sim::Scenario scenario = explicit_scenario(config);
-  std::vector<sim::ScenarioProblem> found = sim::problems_of(scenario);
-  const bool kinds_exist =
-      std::all_of(scenario.robots.begin(), scenario.robots.end(), [&](const sim::RobotTask& task) {
-        return scenario.fleet.empty() || task.kind < scenario.fleet.size();
-      });
-  if (kinds_exist)
-    for (sim::ScenarioProblem& problem : more_problems_of(scenario)) found.push_back(std::move(problem));
-  for (const sim::ScenarioProblem& problem : found) {
-    if (refused.refuses(problem.where) || (!problem.other.empty() && refused.refuses(problem.other)))
-      continue;
-    const YamlNode& node = nearest_node(root, problem.where);
-    const bool has_value = node.kind == YamlKind::scalar || node.kind == YamlKind::list;
-    problems.add(node.location, problem.where + (has_value ? " = " + shown(node) : "") + " " + problem.what,
-                 problem.where);
-  }
 }
 
 /// The key that sizes a family: what of the layout did not fit, where that is known and was set, or else the
@@ -192,6 +95,11 @@ void check_drawn(const YamlNode& root, const RunConfiguration& config, InputProb
   try {
     const std::vector<sim::ScenarioProblem> found = sim::problems_of(make_trial(config, 0));
     if (found.empty()) return;
+    const bool of_events = found.front().where.rfind("events", 0) == 0;
+    if (of_events) {
+      for (const sim::ScenarioProblem& problem : found) report(problem, root, problems);
+      return;
+    }
     const std::string others =
         found.size() == 1 ? "" : " (and " + std::to_string(found.size() - 1) + " more)";
     refuse(to_text(found.front()) + others);
@@ -275,7 +183,7 @@ void check_settings(const YamlNode& root, RunConfiguration& config, InputProblem
   for (std::size_t kind = 0; kind < agents.size(); ++kind)
     for (host::Contradiction& one : sim::contradictions(scenario, agents[kind])) {
       const bool of_robot = one.key.rfind("robot.", 0) == 0 || one.key.rfind("agent.", 0) == 0;
-      if (!config.fleet.empty() && of_robot) one.key = entry("fleet", kind, ".") + one.key;
+      if (!config.fleet.empty() && of_robot) one.key = entry_name("fleet", kind, ".") + one.key;
       const bool told = std::any_of(found.begin(), found.end(), [&](const host::Contradiction& other) {
         return other.key == one.key && other.sentence == one.sentence;
       });
@@ -354,9 +262,12 @@ std::string to_yaml_text(const RunConfiguration& config, bool explains) {
 
 sim::Scenario make_trial(const RunConfiguration& config, int trial) {
   if (config.family.drawn) {
-    return sim::make_scenario({*config.family.drawn, config.layout, config.robot, config.simulation,
-                               config.recording, robots_of(config.fleet)},
-                              config.seed, trial);
+    sim::Scenario scenario =
+        sim::make_scenario({*config.family.drawn, config.layout, config.robot, config.simulation,
+                            config.recording, robots_of(config.fleet)},
+                           config.seed, trial);
+    for (const EventEntry& event : config.events) scenario.events.push_back(event_of(event));
+    return scenario;
   }
   sim::Scenario scenario = explicit_scenario(config);
   scenario.trial = trial;

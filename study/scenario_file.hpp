@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +21,7 @@
 #include "sim/families.hpp"
 #include "sim/scenario.hpp"
 #include "study/crowd_file.hpp"
+#include "study/fleet_entries.hpp"
 #include "study/map_file.hpp"
 
 namespace spf {
@@ -47,10 +47,6 @@ struct EnumNames<SceneFamily> {
       scene_family_names(std::make_index_sequence<EnumNames<sim::Family>::values.size()>{});
 };
 
-/// Marks coordinates that the file has to set.
-inline const Eigen::Vector2d kUnsetPoint =
-    Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-inline constexpr Range kCoordinate{-1e5, 1e5};
 /// Kind of a robot that takes the next of the fleet's.
 inline constexpr int kInTurn = -1;
 
@@ -81,6 +77,7 @@ struct RobotEntry {
   std::optional<double> heading;
   Eigen::Vector2d goal = kUnsetPoint;
   std::optional<double> goal_heading;
+  std::vector<Eigen::Vector2d> next_goals;
 
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -93,6 +90,8 @@ struct RobotEntry {
           "of its x axis at the beginning; none: towards the goal");
     visit("goal", self.goal, "m", kCoordinate, "where it is to go");
     visit("goal_heading", self.goal_heading, "rad", Range{-6.3, 6.3}, "of its x axis at the goal; none: any");
+    visit.values("next_goals", self.next_goals, "m", kCoordinate,
+                 "where it is to go then, one after the other, as [[4, 0], [0, 0]] (trial.goals)");
   }
 };
 
@@ -240,6 +239,7 @@ struct RunConfiguration {
   std::shared_ptr<const sim::CrowdRecording> recording;  ///< the recording itself; not among the fields
   ExplicitScene scene;                                   ///< of an explicit one
   std::shared_ptr<const sim::StaticMap> map;             ///< its map, null = none; not among the fields
+  std::vector<EventEntry> events;
   RobotParameters robot;
   std::vector<RobotKind> fleet;  ///< the kinds of robots; empty: all are alike
   sim::SimulationParameters simulation;
@@ -335,9 +335,12 @@ void RunConfiguration::visit_scene(Self& self, Visitor&& visit) {
           "with --set in the working directory (family: ped, explicit)");
     visit.group("crowd_settings", self.crowd_settings);
   }
-  if (!self.family.drawn) return;
-  PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
-  visit.group("layout", layout);
+  if (self.family.drawn) {
+    PartlyHidden<std::remove_reference_t<decltype((self.layout))>> layout{self.layout, {"robots"}};
+    visit.group("layout", layout);
+  }
+  visit.list("events", self.events,
+             "what happens to robots while a trial runs, as {at: 5, robot: 0, do: pause}");
 }
 
 template <class Self, class Visitor>

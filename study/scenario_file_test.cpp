@@ -232,6 +232,52 @@ TEST(ScenarioFile, DescribesASceneByHand) {
   EXPECT_EQ(scenario.moving[0].velocity_world, (Eigen::Vector2d{0.0, 0.5}));
 }
 
+TEST(ScenarioFile, TellsWhatHappensToRobots) {
+  const std::string text = R"(family: explicit
+trial: {goals: repeated, goal_pause: 2}
+robots:
+  - {start: [0, 0], goal: [4, 0], next_goals: [[4, 4], [0, 4]]}
+  - {start: [0, 9], goal: [4, 0]}
+events:
+  - {at: 3, robot: 1, do: break_down}
+  - {after: {robot: 0, goals: 2}, robot: 1, do: goal, goal: [7, 8], goal_heading: 1.5}
+  - {at: 4, robot: 0, do: priority, priority: 7}
+)";
+  const RunConfiguration first = run_configuration_from_text(text, "test");
+  // What is written out reads back to the same.
+  const RunConfiguration config = run_configuration_from_text(to_yaml_text(first), "written");
+  const sim::Scenario scenario = make_trial(config, 0);
+  EXPECT_EQ(scenario.simulation.trial.goals, sim::GoalSupply::repeated);
+  EXPECT_EQ(scenario.simulation.trial.goal_pause, 2.0);
+  ASSERT_EQ(scenario.robots[0].next_goals.size(), 2U);
+  EXPECT_EQ(scenario.robots[0].next_goals[1].position_world, (Eigen::Vector2d{0.0, 4.0}));
+  ASSERT_EQ(scenario.events.size(), 3U);
+  EXPECT_EQ(scenario.events[0].order.act, sim::FleetAct::break_down);
+  EXPECT_EQ(scenario.events[0].order.robot, 1);
+  EXPECT_EQ(scenario.events[0].time, 3.0);
+  EXPECT_EQ(scenario.events[0].after_robot, -1);
+  EXPECT_EQ(scenario.events[1].after_robot, 0);
+  EXPECT_EQ(scenario.events[1].after_goals, 2);
+  EXPECT_EQ(scenario.events[1].order.goal.position_world, (Eigen::Vector2d{7.0, 8.0}));
+  EXPECT_EQ(scenario.events[1].order.goal.heading, 1.5);
+  EXPECT_EQ(scenario.events[2].order.priority, 7);
+  const RunConfiguration drawn =
+      run_configuration_from_text("family: t2\nevents: [{at: 1, robot: 4, do: pause}]", "test");
+  EXPECT_EQ(make_trial(drawn, 3).events.size(), 1U);
+}
+
+TEST(ScenarioFile, RefusesEventsThatCannotBeWhereTheyStand) {
+  EXPECT_EQ(report("family: t2\nevents: [{at: 1, robot: 5, do: pause}]"),
+            "file.yaml:2:25: events[0].robot = 5 must be below 5, the number of robots");
+  EXPECT_EQ(report("family: t2\nevents: [{robot: 0, do: halt}]").substr(0, 67),
+            "file.yaml:2:25: events[0].do = halt must be one of goal, cancel, pa");
+  EXPECT_EQ(report("family: t2\nevents: [{robot: 0}]"), "file.yaml:2:10: events[0].do is missing");
+  EXPECT_NE(report("family: t2\nevents: [{robot: 0, do: goal}]").find("events[0].goal must say where to"),
+            std::string::npos);
+  EXPECT_NE(report("family: t2\nevents: [{robot: 0, do: goal, goal: [1, far]}]").find("events[0].goal[1]"),
+            std::string::npos);
+}
+
 TEST(ScenarioFile, PutsPeopleIntoADrawnScene) {
   const std::string plaza = (kScenarios / "crowds" / "plaza.csv").string();
   const std::string text =

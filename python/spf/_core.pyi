@@ -1457,6 +1457,12 @@ class Robot:
     def step(self, now: float) -> dict[str, Any]:
         """Plans and controls where due, as a dict: wheel_speeds (inputs,) to hold until the next, planned,
         broadcast (a Message for the peers, or None)."""
+    def set_goal(self, goal: ArrayLike, heading: float | None = None) -> None:
+        """Another goal (2,) [m] from now on, with a heading [rad] or any."""
+    def cancel(self) -> None:
+        """No goal any more: it brakes and stands."""
+    def set_switches(self, paused: bool, emergency_stop: bool = False) -> None:
+        """What makes it stand until it is taken back."""
     @property
     def status(self) -> dict[str, Any]:
         """How it stands, as a dict: reason, blocking_id (-1: none)."""
@@ -1471,13 +1477,13 @@ class World:
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, Any], dict[str, Any]]:
         """Begins a trial and returns (observation, info): {"trial": k} in `options`, or the one after the
         last. `seed` replaces the scenario's. The observation is a dict: time [s]; pose (N, 3) as measured,
-        x, y [m], heading [rad]; goal (N, 2) [m]; obstacles (N, M, 5) as each robot has seen them last, x, y
+        x, y [m], heading [rad]; goal (N, 2) [m], NaN: none; obstacles (N, M, 5) as each robot has seen them last, x, y
         [m], their velocity [m/s], radius [m], NaN where there are fewer; observed, whether they are new.
         The info is the truth: trial; pose (N, 3), velocity (N, 2) [m/s], arrived (N,), contacts."""
     def step(self, action: ArrayLike) -> tuple[dict[str, Any], NDArray[np.float64], bool, bool, dict[str, Any]]:
         """Holds inputs (N, inputs) until the next pose: rim speeds [m/s] of the wheels, of a car rim speed
         and steering angle [rad]. Returns (observation, reward, terminated, truncated, info): the reward
-        (N,) is by how much [m] each robot came nearer to its goal; terminated by a contact or when all
+        (N,) is by how much [m] each robot came nearer to its goal (0 when it is told another); terminated by a contact or when all
         have arrived, truncated when time is up."""
     def robot(self, number: int) -> Robot:
         """A new Robot as the scenario has it, at its start: what drives in trials."""
@@ -1500,7 +1506,11 @@ class World:
         """The trial has ended."""
     @property
     def active(self) -> list[bool]:
-        """By robot: it is neither wrecked nor gone."""
+        """By robot: it is neither wrecked, nor broken down, nor gone."""
+    @property
+    def orders(self) -> list:
+        """What robots are told with this step, or befalls them, as dicts: robot, do (a word of scenario
+        files), and goal (2,) [m] and heading [rad] (None: any) or priority where it has them."""
 class Fleet:
     """All robots of a World, as the program drives them."""
     def __init__(self, world: World) -> None:

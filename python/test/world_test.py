@@ -56,6 +56,36 @@ def test_a_fleet_drives_itself_trial_after_trial():
         assert f"{world.result()['digest']:016x}" == T2.run(number).digest
 
 
+def test_a_fleet_obeys_as_in_a_trial():
+    events = [{"at": 2, "robot": 0, "do": "pause"}, {"at": 4, "robot": 0, "do": "resume"},
+              {"at": 3, "robot": 1, "do": "break_down"}, {"at": 9, "robot": 1, "do": "repair"},
+              {"at": 5, "robot": 2, "do": "goal", "goal": [-9, 0]}, {"at": 6, "robot": 3, "do": "cancel"},
+              {"at": 1, "robot": 4, "do": "leave"}, {"at": 7, "robot": 4, "do": "join"}]
+    told = T2.changed({"events": events, "trial.goals": "drawn", "trial.time_limit": 25})
+    world = spf.World(told)
+    fleet = spf.Fleet(world)
+    observation, _ = world.reset()
+    seen = []
+    while not world.finished:
+        seen += [(order["robot"], order["do"]) for order in world.orders]
+        observation, *_ = world.step(fleet.act())
+    assert {(event["robot"], event["do"]) for event in events} <= set(seen)
+    assert len(seen) > len(events)  # goals that were drawn
+    assert np.isnan(observation["goal"][3]).all()
+    assert f"{world.result()['digest']:016x}" == told.run(0).digest
+
+
+def test_a_robot_is_told_another_goal_and_to_pause():
+    world = spf.World(T2)
+    world.reset()
+    robot = world.robot(0)
+    robot.set_goal([1.0, 2.0], heading=0.5)
+    robot.set_switches(paused=True)
+    robot.cancel()
+    with pytest.raises(ValueError, match="goal"):
+        robot.set_goal([float("nan"), 0.0])
+
+
 def test_robots_of_several_kinds_drive_as_in_a_trial():
     mixed = T2.changed({"fleet": [{"robot": {"drive": "car", "max_acceleration": 0.8}},
                                   {"robot": {"drive": "mecanum", "radius": 0.2}, "method": "orca"}]})

@@ -17,6 +17,7 @@ function repaint() {
 }
 
 /** Frame number, fractional, of the present time. */
+const goalNow = (robot) => robot.goals.reduce((goal, next) => (next.time <= state.time + 1e-6 ? next.at : goal), robot.goal);
 const frameNow = () => (run.frames < 2 ? 0 : state.time / run.interval);
 
 function setTime(time) {

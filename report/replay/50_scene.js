@@ -255,7 +255,8 @@ function middle(points) {
 const candidateKey = (index) => String.fromCharCode(65 + (index % 26));
 
 function drawGoal(robot, chosen) {
-  const px = toScreenX(robot.goal.x), py = toScreenY(robot.goal.y);
+  const goal = goalNow(robot);
+  const px = toScreenX(goal.x), py = toScreenY(goal.y);
   const size = Math.max(4, 0.45 * robot.radius * view.scale);
   pen.beginPath();
   pen.moveTo(px, py - size);

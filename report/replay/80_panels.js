@@ -35,7 +35,8 @@ function paintDetails() {
   showDetail("Position", `${formatted(x, 2)}, ${formatted(y, 2)} m`);
   showDetail("Heading", `${formatted((sampleAngle(robot.heading, frame) * 180) / Math.PI, 0)}\u00b0`);
   showDetail("Speed", `${formatted(speedNow(robot), 2)} m/s`);
-  showDetail("To the goal", `${formatted(Math.hypot(robot.goal.x - x, robot.goal.y - y), 2)} m`);
+  const goal = goalNow(robot);
+  showDetail("To the goal", `${formatted(Math.hypot(goal.x - x, goal.y - y), 2)} m`);
   const error = Math.hypot(sample(robot.estimateX, frame) - x, sample(robot.estimateY, frame) - y);
   showDetail("Estimate off by", `${formatted(100 * error, 1)} cm (\u03c3 ${formatted(100 * sample(robot.sigmaLong, frame), 1)} cm)`);
   showDetail("Gap to moving", clearanceText(robot, "obstacle", "O"));

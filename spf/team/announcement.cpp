@@ -29,6 +29,7 @@ Announcement::Announcement(int robot_id, const AgentParameters& parameters, doub
 
 void Announcement::reconfigure(const AgentParameters& parameters) {
   robot_ = parameters.robot;
+  priority_ = parameters.team.priority;
   goal_tolerance_ = parameters.team.goal_tolerance;
 }
 

@@ -24,7 +24,7 @@ class Announcement {
  public:
   Announcement(int robot_id, const AgentParameters& parameters, double time);
 
-  /// Another goal tolerance and other limits from now on.
+  /// Another goal tolerance and priority and other limits from now on.
   void reconfigure(const AgentParameters& parameters);
 
   /// How the robot stands at a time [s].

@@ -35,6 +35,8 @@ class Beliefs {
     map.take_over_sensed(map_);
     map_ = std::move(map);
   }
+  /// Of the robot, from the next snapshot on.
+  void set_priority(int priority) { priority_ = priority; }
   /// Obstacles and peers as believed at a time [s], for the snapshots from now on.
   void refresh(double time);
 

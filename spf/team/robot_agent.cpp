@@ -79,6 +79,7 @@ void RobotAgent::Implementation::reconfigure(const AgentParameters& changed) {
   right_of_way.reconfigure(parameters.robot, planner->gives_way());
   commitment.reconfigure(parameters);
   announcement.reconfigure(parameters);
+  beliefs.set_priority(parameters.team.priority);
 }
 
 std::optional<TrajectoryMessage> RobotAgent::Implementation::plan(double now, const StateEstimate& state,

@@ -38,9 +38,10 @@ class RobotAgent {
   /// Another static map than before: plans go on in it, and what was sensed is kept.
   void set_map(OccupancyMap map);
   /// Other parameters to plan by, from the next plan on: the robot's limits, heading mode, goal tolerance,
-  /// and what planner and guide take. Rates, and what map, tracks and peers take, stay as they were. A plan
-  /// under way that was made for a higher max_speed is not gone on with: the next one slows down within
-  /// max_acceleration, or the robot brakes. Throws std::invalid_argument when parameters are out of range.
+  /// priority, and what planner and guide take. Rates, and what map, tracks and peers take, stay as they
+  /// were. A plan under way that was made for a higher max_speed is not gone on with: the next one slows down
+  /// within max_acceleration, or the robot brakes. Throws std::invalid_argument when parameters are out of
+  /// range.
   void reconfigure(const AgentParameters& parameters);
   /// Keep every candidate in last_plan(), for display (allocates).
   void set_keep_candidates(bool keep);

@@ -188,12 +188,12 @@ void add_static_scene(const Scenario& scenario, WorldMarkers& markers) {
 
 void add_robot(const World& world, std::size_t robot, WorldMarkers& markers) {
   const RobotTruth& truth = world.robots()[robot];
-  const Scenario& scenario = world.scenario();
+  if (truth.gone) return;
   const double radius = truth.radius;
   const int id = static_cast<int>(robot);
-  const std_msgs::ColorRGBA paint = truth.wrecked   ? color(0.1F, 0.1F, 0.1F)
-                                    : truth.arrived ? color(0.2F, 0.65F, 0.3F)
-                                                    : color(0.15F, 0.4F, 0.8F);
+  const std_msgs::ColorRGBA paint = truth.wrecked || truth.broken ? color(0.1F, 0.1F, 0.1F)
+                                    : truth.arrived               ? color(0.2F, 0.65F, 0.3F)
+                                                                  : color(0.15F, 0.4F, 0.8F);
   markers.disc("robot", id, truth.pose.position_world, radius, 0.3, paint);
   visualization_msgs::Marker& nose =
       markers.add("heading", id, visualization_msgs::Marker::ARROW, truth.pose, 0.32);
@@ -205,8 +205,8 @@ void add_robot(const World& world, std::size_t robot, WorldMarkers& markers) {
   number.text = std::to_string(id);
   number.scale.z = 2.0 * radius;
   number.color = color(0.0F, 0.0F, 0.0F);
-  markers.disc("goal", id, scenario.robots[robot].goal_world, 0.4 * radius, 0.02,
-               color(0.1F, 0.6F, 0.2F, 0.6F));
+  if (const std::optional<spf::host::Goal>& goal = world.goal(id))
+    markers.disc("goal", id, goal->position_world, 0.4 * radius, 0.02, color(0.1F, 0.6F, 0.2F, 0.6F));
 }
 
 std::string contact_text(const spf::sim::Contact& contact) {
@@ -296,13 +296,16 @@ spf_empc_msgs::ObstacleTracks obstacles_message(const std::vector<spf::Detection
   return message;
 }
 
-geometry_msgs::PoseStamped goal_message(const spf::sim::RobotTask& task, const Stamp& stamp) {
+geometry_msgs::PoseStamped goal_message(const spf::host::Goal& goal, double any_heading, const Stamp& stamp) {
   geometry_msgs::PoseStamped message;
   message.header.frame_id = stamp.frame;
   message.header.stamp = stamp.time;
-  // A message has no "any heading": the one it has spares it the turn.
-  message.pose = to_message(spf::Pose2{task.goal_world, task.goal_heading.value_or(task.start.heading)});
+  message.pose = to_message(spf::Pose2{goal.position_world, goal.heading.value_or(any_heading)});
   return message;
+}
+
+geometry_msgs::PoseStamped goal_message(const spf::sim::RobotTask& task, const Stamp& stamp) {
+  return goal_message({task.goal_world, task.goal_heading}, task.start.heading, stamp);
 }
 
 nav_msgs::OccupancyGrid map_message(const Scenario& scenario, double resolution, const Stamp& stamp) {

@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 #include <rosgraph_msgs/Clock.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/Empty.h>
 
 #include <cmath>
 #include <cstdio>
@@ -73,6 +75,11 @@ void SimulatorNode::connect(int robot) {
   topics.obstacles = node_.advertise<spf_empc_msgs::ObstacleTracks>(name + "obstacles", 5);
   if (config_.publishes_goals)
     topics.goal = node_.advertise<geometry_msgs::PoseStamped>(name + "goal", 1, true);
+  if (!config_.scenario.events.empty()) {
+    topics.cancel = node_.advertise<std_msgs::Empty>(name + "cancel", 1);
+    topics.pause = node_.advertise<std_msgs::Bool>(name + "pause", 1, true);
+    topics.emergency_stop = node_.advertise<std_msgs::Bool>(name + "emergency_stop", 1, true);
+  }
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   if (config_.takes_wheel_speeds) {
     const boost::function<void(const spf_empc_msgs::WheelSpeeds::ConstPtr&)> take =
@@ -139,6 +146,7 @@ int SimulatorNode::run() {
 void SimulatorNode::tick() {
   if (world_.pose_due()) {
     publish_clock();
+    publish_orders();
     publish_poses();
   }
   if (world_.observation_due()) publish_observations();
@@ -150,6 +158,23 @@ void SimulatorNode::tick() {
   pace_.reached(world_.time(), wall_now());
   if (!end_ && world_.finished()) note_end();
   world_.begin_tick();
+}
+
+/// What people would tell the robots. Another priority is not told: nodes take theirs from their parameters.
+void SimulatorNode::publish_orders() {
+  using spf::sim::FleetAct;
+  for (const spf::sim::FleetOrder& order : world_.orders()) {
+    const auto robot = static_cast<std::size_t>(order.robot);
+    const Robot& topics = robots_[robot];
+    const spf::sim::RobotTruth& truth = world_.robots()[robot];
+    if (order.act == FleetAct::goal && config_.publishes_goals)
+      topics.goal.publish(goal_message(order.goal, truth.pose.heading, stamp()));
+    if (order.act == FleetAct::cancel) topics.cancel.publish(std_msgs::Empty{});
+    std_msgs::Bool on;
+    on.data = order.act == FleetAct::pause || order.act == FleetAct::stop ? 1 : 0;
+    if (order.act == FleetAct::pause || order.act == FleetAct::resume) topics.pause.publish(on);
+    if (order.act == FleetAct::stop || order.act == FleetAct::release) topics.emergency_stop.publish(on);
+  }
 }
 
 void SimulatorNode::serve_until(double wall) {

@@ -40,6 +40,10 @@ struct Stamp {
 /// variance and no velocity.
 [[nodiscard]] spf_empc_msgs::ObstacleTracks obstacles_message(const std::vector<spf::Detection>& detections,
                                                               const Stamp& stamp);
+/// A message has no "any heading": where the goal has none it has `any_heading` [rad].
+[[nodiscard]] geometry_msgs::PoseStamped goal_message(const spf::host::Goal& goal, double any_heading,
+                                                      const Stamp& stamp);
+/// The first goal of a robot; its start's heading, where any will do, spares it the turn.
 [[nodiscard]] geometry_msgs::PoseStamped goal_message(const spf::sim::RobotTask& task, const Stamp& stamp);
 
 /// The map that the robots are given: the border's inside (or all there is, where the scene is open), with

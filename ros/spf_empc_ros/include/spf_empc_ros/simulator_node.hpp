@@ -59,6 +59,7 @@ class SimulatorNode {
  private:
   struct Robot {
     ros::Publisher odom, scan, obstacles, goal;
+    ros::Publisher cancel, pause, emergency_stop;  // where the scenario has a use for them
     ros::Subscriber command;
   };
   void connect(int robot);
@@ -67,6 +68,7 @@ class SimulatorNode {
   [[nodiscard]] std::string missing() const;
   void tick();
   void publish_clock();
+  void publish_orders();
   void publish_poses();
   void publish_observations();
   void publish_pictures();

@@ -1,0 +1,39 @@
+// When what happens to the robots of a trial: events whose time or condition has come, and the next goal of
+// who has reached one. It says what is due and changes nothing. Times in s of the trial.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "sim/goal_source.hpp"
+
+namespace spf::sim {
+
+class FleetLife {
+ public:
+  explicit FleetLife(const Scenario& scenario);
+
+  /// A robot has reached a goal at `time`, for the `reached`-th time; `taken` as for GoalSource.
+  void reached_goal(double time, std::size_t robot, int reached, const Eigen::Vector2d& position_world,
+                    const std::vector<std::optional<host::Goal>>& taken);
+  /// What is due at `time`, in the order of the events; only once each. `can` says whether it is possible
+  /// now; what is not is asked for again.
+  const std::vector<FleetOrder>& due(double time, const std::function<bool(const FleetOrder&)>& can);
+
+  /// Whether more will happen for certain: its time is known.
+  [[nodiscard]] bool goes_on() const;
+  /// A goal is to come after the one that the robot has reached last.
+  [[nodiscard]] bool goal_to_come(std::size_t robot) const;
+
+ private:
+  struct Pending {
+    FleetEvent event;
+    bool timed = true;  // its condition, if any, has come true: event.time counts
+  };
+  GoalSource source_;
+  double goal_pause_;  // [s]
+  std::vector<Pending> pending_;
+  std::vector<FleetOrder> orders_;  // of the last call
+};
+
+}  // namespace spf::sim
