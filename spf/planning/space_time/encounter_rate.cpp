@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLeastSeen = 0.1;  // [1] of the disc: among people who stand close it sees hardly farther
 constexpr double kStood = 1.0;      // [s] at one position: it does not move
+constexpr double kMostPerSecond = 1e3;
 
 /// How far the robot sees, by direction.
 class SeenDisc {
@@ -59,7 +60,7 @@ void EncounterRate::update(const PlanRequest& request) {
       seen.hide_behind(offset, track.state.radius);
     }
   }
-  const double now = swept > 0.0 ? swept / seen.area() : 0.0;
+  const double now = std::min(kMostPerSecond, swept / seen.area());
   rate_ += (1.0 - std::exp(-elapsed / memory_)) * (now - rate_);
 }
 

@@ -39,9 +39,8 @@ void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spa
 
 constexpr double kProgress = 0.3;   // [1] of the radius
 constexpr double kElsewhere = 3.0;  // [1] likewise: so much farther it has another path, or was pushed off
-constexpr std::array<double, 3> kPaces{0.5, 0.25,
-                                       0.12};  // [1] of max_speed: along the guide, where it is tight
-constexpr double kSlowFraction = 0.5;          // [1] of max_speed: the second speed of the sidesteps
+constexpr std::array<double, 3> kPaces{0.5, 0.25, 0.12};  // [1] of max_speed: along a tight guide
+constexpr double kSlowFraction = 0.5;  // [1] of max_speed: the second speed of the sidesteps
 constexpr double kEarlyProgress =
     0.3;  // [1] weight of the distance to go at instants before the horizon: no putting off
 constexpr double kBlockedStand = 4.0;  // [1] of stand_bonus, before something that stands in the way
@@ -53,12 +52,12 @@ constexpr double kNoRoomSigmas = 1.5;  // [1] nearer to a surface than that, the
 constexpr double kPauseTime = 0.5;     // [s] without a call: the robot did not wait of its own accord
 constexpr double kCreepSpeed = 0.15;   // [1] of max_speed
 constexpr double kHasteCost = 1e-3;    // [1] of collision_cost, at max_speed where none at all is safe
-// Among many people some risk is always ahead. From this many encounters within the horizon on the price of
-// the risk of what moves falls, to a least price.
+// Among many people some risk is always ahead. Beyond so many encounters within the horizon its price falls.
 constexpr double kCrowd = 0.285;         // [1]
 constexpr double kCrowdPower = 8.0;      // [1] how suddenly
-constexpr double kCrowdFall = 20.0;      // [1]
-constexpr double kCrowdCost = 17.0;      // [1] of the horizon: a certain contact, where it is most crowded
+constexpr double kCrowdFall = 13.0;      // [1]
+constexpr double kCrowdCost = 25.0;      // [1] of the horizon: a certain contact, where it is most crowded
+constexpr double kCrowdDiscount = 0.5;   // [1] of discount_time, where it is most crowded
 constexpr double kCrowdMemory = 1.33;    // [1] of the horizon
 constexpr double kCrowdRange = 2.67;     // [1] of the way at max_speed within the horizon
 constexpr double kBehind = 0.3;          // [1] cosine: reversing towards such directions is tried, too
@@ -302,12 +301,14 @@ void SpaceTimePlanner::update_surface_price(const PlanRequest& request) {
   surface_price_ = std::max(kLeastPrice, 1.0 / (1.0 + waited * waited));
 }
 
-/// [1] Of the price of the risk of what moves. Chosen on crowds made by `spf crowd` and on T2-hard, which it
-/// leaves as it was.
-double SpaceTimePlanner::crowd_weight() const {
-  const double crowd = std::pow(encounters_.per_second() * parameters_.horizon / kCrowd, kCrowdPower);
+/// Chosen on crowds made by `spf crowd` and on T2-hard, which it leaves as it was.
+MovingRisk SpaceTimePlanner::risk_in_crowd() const {
+  const double encounters = encounters_.per_second() * parameters_.horizon;
+  const double power = std::pow(encounters / kCrowd, kCrowdPower);
+  const double crowd = 1.0 - 1.0 / (1.0 + power);  // also where that is infinite
   const double least = kCrowdCost * parameters_.horizon / std::max(parameters_.collision_cost, 1e-9);
-  return std::max(std::min(1.0, least), 1.0 / (1.0 + kCrowdFall * crowd / (1.0 + crowd)));
+  return {std::max(std::min(1.0, least), 1.0 / (1.0 + kCrowdFall * crowd)),
+          1.0 - (1.0 - kCrowdDiscount) * crowd};
 }
 
 void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
@@ -323,7 +324,7 @@ void SpaceTimePlanner::plan(const PlanRequest& request, PlanResult& result) {
 
   // 1. Predictions of obstacles and peers over the horizon, and how fast sight allows to go.
   encounters_.update(request);
-  risk_.prepare(request, crowd_weight());
+  risk_.prepare(request, risk_in_crowd());
   sight_.prepare(request);
   settings_.max_speed = sight_.speed();
   passage_.prepare(request);

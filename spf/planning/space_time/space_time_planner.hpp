@@ -46,7 +46,7 @@ class SpaceTimePlanner final : public Planner {
   void consider(const MotionPrimitive& primitive, const PlanRequest& request, PlanResult& result,
                 double bonus = 0.0);
   void update_surface_price(const PlanRequest& request);
-  [[nodiscard]] double crowd_weight() const;
+  [[nodiscard]] MovingRisk risk_in_crowd() const;
   void consider_previous(const PlanRequest& request, PlanResult& result);
   void consider_all(const PlanRequest& request, const Score& direct, PlanResult& result);
   [[nodiscard]] double turning_time(const SteeredState& state, const CostToGo& guide) const;

@@ -33,13 +33,15 @@ SpaceTimeRisk::SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot
       steps_{std::min(kMaxSteps, static_cast<int>(std::lround(parameters.horizon / parameters.step)))} {
   for (int k = 0; k <= kMaxSteps; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    discount_[at] = std::exp(-k * parameters.step / parameters.discount_time);
     peer_discount_[at] = std::exp(-k * parameters.step / parameters.peer_discount_time);
   }
   order_.reserve(64);
 }
 
-void SpaceTimeRisk::prepare(const PlanRequest& request, double moving_weight) {
+void SpaceTimeRisk::prepare(const PlanRequest& request, const MovingRisk& moving) {
+  const double discount_time = moving.discount_share * parameters_.discount_time;
+  for (int k = 0; k <= kMaxSteps; ++k)
+    discount_[static_cast<std::size_t>(k)] = std::exp(-k * parameters_.step / discount_time);
   disc_count_ = 0;
   order_.clear();
   watch_goal(request);
@@ -71,7 +73,7 @@ void SpaceTimeRisk::prepare(const PlanRequest& request, double moving_weight) {
   }
   for (const auto& [gap, index] : order_) {
     if (index >= 0) {
-      add_track(request, tracks[static_cast<std::size_t>(index)], moving_weight);
+      add_track(request, tracks[static_cast<std::size_t>(index)], moving.weight);
     } else {
       add_peer(request, peers[static_cast<std::size_t>(-1 - index)]);
     }

@@ -14,6 +14,12 @@
 namespace spf {
 
 /// Obstacles and peers of one planning call, tabulated over the horizon.
+/// How much the risk of tracks that move counts.
+struct MovingRisk {
+  double weight = 1.0;          ///< [1]
+  double discount_share = 1.0;  ///< [1] of discount_time
+};
+
 class SpaceTimeRisk {
  public:
   static constexpr int kMaxSteps = 30;
@@ -40,9 +46,8 @@ class SpaceTimeRisk {
   SpaceTimeRisk(const SpaceTimeParameters& parameters, double robot_radius, double max_speed);
 
   /// Tabulates every obstacle and peer that can come near within the horizon (the nearest kMaxDiscs of
-  /// them). The risk of tracks that move counts `moving_weight` [1]. Allocates only when there are more of
-  /// them than ever before.
-  void prepare(const PlanRequest& request, double moving_weight = 1.0);
+  /// them). Allocates only when there are more of them than ever before.
+  void prepare(const PlanRequest& request, const MovingRisk& moving = {});
 
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] double step() const { return parameters_.step; }  ///< [s]
