@@ -34,11 +34,11 @@ void FleetLife::reached_goal(double time, std::size_t robot, int reached,
 }
 
 const std::vector<FleetOrder>& FleetLife::due(double time,
-                                              const std::function<bool(const FleetOrder&)>& can) {
+                                              const std::function<bool(const FleetOrder&)>& happens) {
   orders_.clear();
   if (pending_.empty()) return orders_;
   const auto is_due = [&](const Pending& pending) {
-    if (!pending.timed || pending.event.time > time + kTimeRounding || !can(pending.event.order))
+    if (!pending.timed || pending.event.time > time + kTimeRounding || !happens(pending.event.order))
       return false;
     orders_.push_back(pending.event.order);
     return true;

@@ -1,5 +1,5 @@
 // When what happens to the robots of a trial: events whose time or condition has come, and the next goal of
-// who has reached one. It says what is due and changes nothing. Times in s of the trial.
+// who has reached one. Times in s of the trial.
 #pragma once
 
 #include <functional>
@@ -16,9 +16,9 @@ class FleetLife {
   /// A robot has reached a goal at `time`, for the `reached`-th time; `taken` as for GoalSource.
   void reached_goal(double time, std::size_t robot, int reached, const Eigen::Vector2d& position_world,
                     const std::vector<std::optional<host::Goal>>& taken);
-  /// What is due at `time`, in the order of the events; only once each. `can` says whether it is possible
-  /// now; what is not is asked for again.
-  const std::vector<FleetOrder>& due(double time, const std::function<bool(const FleetOrder&)>& can);
+  /// Lets what is due at `time` happen, in the order of the events, and returns it. `happens` returns false
+  /// where that is not possible now: it is tried again next time.
+  const std::vector<FleetOrder>& due(double time, const std::function<bool(const FleetOrder&)>& happens);
 
   /// Whether more will happen for certain: its time is known.
   [[nodiscard]] bool goes_on() const;

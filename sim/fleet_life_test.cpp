@@ -157,6 +157,20 @@ TEST(FleetLife, JoinsOnceNobodyIsInTheWayAndLeaves) {
   EXPECT_TRUE(result.robots[1].arrived);
 }
 
+TEST(FleetLife, LetsOneJoinAfterTheOther) {
+  Scenario scenario = lanes(1);
+  for (double aside : {2.0, -2.0}) {
+    RobotTask same = scenario.robots[0];
+    same.goal_world.y() += aside;
+    scenario.robots.push_back(same);
+  }
+  for (int robot : {0, 1, 2}) scenario.events.push_back(event(1.0, robot, FleetAct::join));
+  const TrialResult result = run(scenario);
+  EXPECT_EQ(result.outcome, TrialOutcome::success);
+  EXPECT_TRUE(at(result, 1.2, 1).gone);
+  for (const RobotResult& robot : result.robots) EXPECT_EQ(robot.life.goals_reached, 1);
+}
+
 TEST(FleetLife, DoesWhatAConditionAsksFor) {
   Scenario scenario = lanes(2);
   FleetEvent after = event(1.5, 1, FleetAct::leave);

@@ -124,8 +124,11 @@ void World::note_broken() {
 void World::begin_tick() {
   life_.orders.clear();
   if (pose_due()) {
-    life_.orders = life_.events.due(time(), [this](const FleetOrder& order) { return possible(order); });
-    for (const FleetOrder& order : life_.orders) obey(order);
+    life_.orders = life_.events.due(time(), [this](const FleetOrder& order) {
+      if (!possible(order)) return false;
+      obey(order);
+      return true;
+    });
     if (!life_.orders.empty()) note_broken();
   }
   if (step_due()) {
