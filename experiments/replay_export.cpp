@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "report/replay_page.hpp"
 #include "report/table.hpp"
@@ -29,15 +31,20 @@ double measured(double duration) {
 // ---- the scene
 // -----------------------------------------------------------------------------------------------------
 
-ReplayBox bounds_of(const sim::Scenario& scenario) {
+ReplayBox bounds_of(const sim::Recording& recording) {
+  const sim::Scenario& scenario = recording.scenario;
   if (scenario.border) return {point(scenario.border->low), point(scenario.border->high)};
   if (scenario.map) {
     const host::CellExtent extent = host::extent_of(scenario.map->cells());
     return {point(extent.low_world), point(extent.high_world)};
   }
   Eigen::AlignedBox2d bounds;
-  for (const sim::RobotTask& task : scenario.robots)
+  for (const sim::RobotTask& task : scenario.robots) {
     bounds.extend(task.start.position_world).extend(task.goal_world);
+    for (const host::Goal& goal : task.next_goals) bounds.extend(goal.position_world);
+  }
+  for (const sim::RecordedGoal& told : recording.goals)
+    if (told.goal) bounds.extend(told.goal->position_world);
   for (const sim::Box& box : scenario.boxes) bounds.extend(box.low).extend(box.high);
   for (const sim::Disc& disc : scenario.discs) bounds.extend(disc.center);
   for (const sim::Polygon& polygon : scenario.polygons)
@@ -80,8 +87,9 @@ void add_map(ReplayData& data, const sim::StaticMap& map) {
          corner(block.end_column, block.end_row), corner(block.first_column, block.end_row)});
 }
 
-void describe_scene(ReplayData& data, const sim::Scenario& scenario) {
-  data.bounds = bounds_of(scenario);
+void describe_scene(ReplayData& data, const sim::Recording& recording) {
+  const sim::Scenario& scenario = recording.scenario;
+  data.bounds = bounds_of(recording);
   for (const sim::Box& box : scenario.boxes) data.shapes.boxes.push_back({point(box.low), point(box.high)});
   for (const sim::Segment& wall : scenario.walls) add_wall(data.shapes.boxes, wall);
   for (const sim::Disc& disc : scenario.discs) data.shapes.discs.push_back({point(disc.center), disc.radius});
@@ -270,17 +278,21 @@ void describe_robots(ReplayData& data, const sim::Recording& recording) {
 
 /// What a robot was told, or befell it, as one reads it of the robot.
 std::string order_text(const std::string& act) {
-  if (act == enum_name(sim::FleetAct::goal)) return "has another goal";
-  if (act == enum_name(sim::FleetAct::cancel)) return "has no goal any more";
-  if (act == enum_name(sim::FleetAct::pause)) return "is told to pause";
-  if (act == enum_name(sim::FleetAct::resume)) return "is told to go on";
-  if (act == enum_name(sim::FleetAct::stop)) return "emergency stop";
-  if (act == enum_name(sim::FleetAct::release)) return "is released from the emergency stop";
-  if (act == enum_name(sim::FleetAct::break_down)) return "breaks down";
-  if (act == enum_name(sim::FleetAct::repair)) return "is repaired";
-  if (act == enum_name(sim::FleetAct::leave)) return "is taken away";
-  if (act == enum_name(sim::FleetAct::join)) return "joins";
-  return "has another priority";
+  using Act = sim::FleetAct;
+  constexpr std::array<std::pair<Act, const char*>, 11> kTexts{{{Act::goal, "has another goal"},
+                                                                {Act::cancel, "has no goal any more"},
+                                                                {Act::pause, "is told to pause"},
+                                                                {Act::resume, "is told to go on"},
+                                                                {Act::stop, "emergency stop"},
+                                                                {Act::release, "is released from the stop"},
+                                                                {Act::break_down, "breaks down"},
+                                                                {Act::repair, "is repaired"},
+                                                                {Act::leave, "is taken away"},
+                                                                {Act::join, "joins"},
+                                                                {Act::priority, "has another priority"}}};
+  for (const auto& [one, text] : kTexts)
+    if (act == enum_name(one)) return text;
+  return act;
 }
 
 ReplayEvent event_of(const sim::RecordedEvent& recorded) {
@@ -348,7 +360,7 @@ ReplayData replay_data(const RunConfiguration& config, const FinishedTrial& tria
   data.states.clear();
   data.frame_interval = recording.frame_interval;
   describe_outcome(data, trial.record);
-  describe_scene(data, recording.scenario);
+  describe_scene(data, recording);
   describe_dynamic_obstacles(data, recording, config);
   describe_robots(data, recording);
   for (const sim::RecordedEvent& event : recording.events) data.events.push_back(event_of(event));

@@ -161,6 +161,23 @@ TEST(TrialRecord, SurvivesItsFile) {
   }
 }
 
+TEST(TrialRecord, TellsOfAFleetThatLives) {
+  TrialRecord record = trial(0, Outcome::success, 1.0, 30.0);
+  record.robots[0].fleet = FleetRecord{40, 1800.0, 7.5, false};
+  record.robots[1].fleet = FleetRecord{2, 360.0, 9.5, true};
+  const TrialRecord read = trial_record_from_json(to_json_line(record), "file", 1);
+  EXPECT_TRUE(same_result(record, read));
+  ASSERT_TRUE(read.robots[1].fleet);
+  EXPECT_EQ(read.robots[0].fleet->goals_reached, 40);
+  EXPECT_TRUE(read.robots[1].fleet->excused);
+  const ResultRow row = result_row({read});
+  EXPECT_EQ(row.goals_reached, 42);
+  EXPECT_NEAR(row.goals_per_robot_hour, 42 / 0.6, 1e-9);
+  EXPECT_EQ(row.longest_stand, 9.5);
+  EXPECT_NE(to_json_line(row).find("\"goals_per_robot_hour\""), std::string::npos);
+  EXPECT_EQ(to_json_line(result_row(some_trials())).find("goals"), std::string::npos);
+}
+
 TEST(TrialRecord, NamesTheLineThatIsBroken) {
   const std::string whole = to_json_line(some_trials()[1]);
   for (const std::string& text :

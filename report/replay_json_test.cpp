@@ -60,6 +60,20 @@ TEST(ReplayJson, GivesEveryPoseBackToHalfAMillimetre) {
   }
 }
 
+TEST(ReplayJson, GoalsChange) {
+  ReplayData data = one_robot(1);
+  EXPECT_FALSE(json::parse(replay_json(data))["robots"][0].contains("goals"));
+  data.robots[0].goal = {1.0, 2.0};
+  data.robots[0].goals = {{2.5, {3.0, -4.0}}, {6.0, {kUnknown, kUnknown}}};
+  const json goals = json::parse(replay_json(data))["robots"][0]["goals"];
+  ASSERT_EQ(goals.size(), 2U);
+  EXPECT_EQ(goals[0]["at"][1], -4000);
+  EXPECT_TRUE(goals[1]["at"][0].is_null());
+  EXPECT_EQ(goal_at(data.robots[0], 2.4).y, 2.0);
+  EXPECT_EQ(goal_at(data.robots[0], 2.5).y, -4.0);
+  EXPECT_TRUE(std::isnan(goal_at(data.robots[0], 7.0).x));
+}
+
 TEST(ReplayJson, PlansKeepEndsOutcomeAndCandidates) {
   ReplayData data = one_robot(1);
   ReplayPlan plan;

@@ -24,7 +24,7 @@ enum class FleetAct {
   priority,    ///< has another priority from now on
 };
 
-/// What does not depend on time any more. Who runs the robots' software lets them obey (fleet_order.hpp).
+/// One act, whose time has come. Whoever runs the robots' software hands it on to them (fleet_order.hpp).
 struct FleetOrder {
   int robot = 0;
   FleetAct act = FleetAct::goal;

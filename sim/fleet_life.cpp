@@ -33,18 +33,16 @@ void FleetLife::reached_goal(double time, std::size_t robot, int reached,
   pending_.push_back({event, true});
 }
 
-const std::vector<FleetOrder>& FleetLife::due(double time,
-                                              const std::function<bool(const FleetOrder&)>& happens) {
-  orders_.clear();
-  if (pending_.empty()) return orders_;
-  const auto is_due = [&](const Pending& pending) {
-    if (!pending.timed || pending.event.time > time + kTimeRounding || !happens(pending.event.order))
-      return false;
-    orders_.push_back(pending.event.order);
+void FleetLife::pass_on(double time, const std::function<bool(const FleetOrder&)>& happens,
+                        std::vector<FleetOrder>& orders) {
+  if (pending_.empty()) return;
+  const auto has_happened = [&](const Pending& pending) {
+    const FleetEvent& event = pending.event;
+    if (!pending.timed || event.time > time + kTimeRounding || !happens(event.order)) return false;
+    orders.push_back(event.order);
     return true;
   };
-  pending_.erase(std::remove_if(pending_.begin(), pending_.end(), is_due), pending_.end());
-  return orders_;
+  pending_.erase(std::remove_if(pending_.begin(), pending_.end(), has_happened), pending_.end());
 }
 
 bool FleetLife::goes_on() const {

@@ -16,9 +16,10 @@ class FleetLife {
   /// A robot has reached a goal at `time`, for the `reached`-th time; `taken` as for GoalSource.
   void reached_goal(double time, std::size_t robot, int reached, const Eigen::Vector2d& position_world,
                     const std::vector<std::optional<host::Goal>>& taken);
-  /// Lets what is due at `time` happen, in the order of the events, and returns it. `happens` returns false
-  /// where that is not possible now: it is tried again next time.
-  const std::vector<FleetOrder>& due(double time, const std::function<bool(const FleetOrder&)>& happens);
+  /// Lets what is due at `time` happen, in the order of the events, and adds it to `orders`. `happens`
+  /// returns false where that is not possible now: it is tried again next time.
+  void pass_on(double time, const std::function<bool(const FleetOrder&)>& happens,
+               std::vector<FleetOrder>& orders);
 
   /// Whether more will happen for certain: its time is known.
   [[nodiscard]] bool goes_on() const;
@@ -33,7 +34,6 @@ class FleetLife {
   GoalSource source_;
   double goal_pause_;  // [s]
   std::vector<Pending> pending_;
-  std::vector<FleetOrder> orders_;  // of the last call
 };
 
 }  // namespace spf::sim

@@ -124,11 +124,12 @@ void World::note_broken() {
 void World::begin_tick() {
   life_.orders.clear();
   if (pose_due()) {
-    life_.orders = life_.events.due(time(), [this](const FleetOrder& order) {
+    const auto happens = [this](const FleetOrder& order) {
       if (!possible(order)) return false;
       obey(order);
       return true;
-    });
+    };
+    life_.events.pass_on(time(), happens, life_.orders);
     if (!life_.orders.empty()) note_broken();
   }
   if (step_due()) {

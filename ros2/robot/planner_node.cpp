@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "config/parameter_text.hpp"
+#include "ros2/robot/pose_input.hpp"
 #include "ros2/robot/topics.hpp"
 #include "wire/display.hpp"
 #include "wire/map.hpp"
@@ -89,16 +90,9 @@ void PlannerNode::refuse(const char* what, const std::string& why, bool harmless
 // ---- in
 
 void PlannerNode::on_pose(const Odometry& odometry) {
-  const Converted<PlacedPose> placed =
-      frames_.pose_of_any_age(odometry.header, odometry.pose.pose, config_.frame);
-  if (!placed) {
-    host_.localiser().count_refused_pose();
-    return refuse("odom", placed.refusal);
-  }
-  const double time = clock_.seconds(odometry.header.stamp);
-  const spf::host::PoseVerdict verdict = host_.add_pose({time, placed->pose}, now());
-  if (!believed(verdict)) return refuse("odom", to_string(verdict), verdict == spf::host::PoseVerdict::late);
-  if (!placed->by_itself) host_.localiser().placed_by_transform_of(time - placed->age);
+  const std::optional<PoseRefusal> refusal =
+      take_pose(odometry, frames_, clock_, config_.frame, host_, [this] { return now(); });
+  if (refusal) refuse("odom", refusal->why, refusal->harmless);
 }
 
 void PlannerNode::on_wheels(const WheelSpeeds& wheels) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sim/extent.hpp"
 #include "sim/geometry.hpp"
 #include "sim/simulation.hpp"
 #include "spf/math/polygon.hpp"
@@ -65,12 +66,6 @@ class CellPainter {
   Eigen::Vector2d low_;
   double cell_;  // [m]
 };
-
-Box extent_of(const Scenario& scenario) {
-  if (scenario.border) return *scenario.border;
-  const spf::GridFrame frame = spf::sim::robot_map(scenario).frame();
-  return {frame.origin_world, frame.node_position(frame.width - 1, frame.height - 1)};
-}
 
 void paint_shapes(const Scenario& scenario, CellPainter& painter, double resolution) {
   for (const Box& box : scenario.boxes)
