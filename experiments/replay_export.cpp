@@ -363,6 +363,9 @@ ReplayData replay_data(const RunConfiguration& config, const FinishedTrial& tria
   describe_scene(data, recording);
   describe_dynamic_obstacles(data, recording, config);
   describe_robots(data, recording);
+  const double recorded = static_cast<double>(recording.frames.size()) * recording.frame_interval;
+  if (trial.record.sim_time > recorded + recording.frame_interval)
+    data.summary.insert(data.summary.begin(), {"recorded", "the first " + fixed(recorded, 0) + " s"});
   for (const sim::RecordedEvent& event : recording.events) data.events.push_back(event_of(event));
   std::stable_sort(data.events.begin(), data.events.end(),
                    [](const ReplayEvent& a, const ReplayEvent& b) { return a.time < b.time; });

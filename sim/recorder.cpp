@@ -63,8 +63,9 @@ std::string reason_text(const AgentStatus& status) {
 
 }  // namespace
 
-Recorder::Recorder(const Scenario& scenario, const GridFrame& map_frame)
-    : recording_{std::make_shared<Recording>()},
+Recorder::Recorder(const Scenario& scenario, const GridFrame& map_frame, const RecordLimit& limit)
+    : limit_{limit},
+      recording_{std::make_shared<Recording>()},
       last_reason_(scenario.robots.size(), StopCause::none),
       last_revision_(scenario.robots.size(), 0),
       cells_(scenario.robots.size()) {
@@ -73,6 +74,9 @@ Recorder::Recorder(const Scenario& scenario, const GridFrame& map_frame)
 }
 
 void Recorder::frame(const TrialFrame& view) {
+  const std::size_t records = recording_->frames.size() * view.robots->size();
+  full_ = view.time >= limit_.always && records >= limit_.records;
+  if (full_) return;
   RecordedFrame frame;
   frame.time = view.time;
   for (std::size_t i = 0; i < view.robots->size(); ++i) {
@@ -109,6 +113,7 @@ void Recorder::frame(const TrialFrame& view) {
 }
 
 void Recorder::planned(double time, const RobotAgent& agent, double plan_ms) {
+  if (full_) return;
   const PlanResult& result = agent.last_plan();
   RecordedPlan plan;
   plan.time = time;
@@ -125,6 +130,7 @@ void Recorder::planned(double time, const RobotAgent& agent, double plan_ms) {
 }
 
 void Recorder::stopped(double time, const RobotAgent& agent) {
+  if (full_) return;
   RecordedPlan plan;
   plan.time = time;
   plan.robot = agent.robot_id();
@@ -142,6 +148,7 @@ void Recorder::hit_while_standing(const Contact& contact) {
 }
 
 void Recorder::note_contact(const Contact& contact, RecordedEvent::Kind kind) {
+  if (full_) return;
   std::string text = enum_name(contact.with);
   if (contact.other >= 0) text += " " + std::to_string(contact.other);
   recording_->events.push_back(
@@ -149,10 +156,12 @@ void Recorder::note_contact(const Contact& contact, RecordedEvent::Kind kind) {
 }
 
 void Recorder::arrived(double time, int robot, const Eigen::Vector2d& position_world) {
+  if (full_) return;
   recording_->events.push_back({time, robot, RecordedEvent::Kind::arrival, "arrived", -1, position_world});
 }
 
 void Recorder::ordered(double time, const FleetOrder& order, const Eigen::Vector2d& position_world) {
+  if (full_) return;
   recording_->events.push_back(
       {time, order.robot, RecordedEvent::Kind::order, enum_name(order.act), -1, position_world});
   if (order.act == FleetAct::goal)

@@ -1,4 +1,4 @@
-// Fills a Recording while a trial runs.
+// Fills a Recording while a trial runs, from its beginning up to a limit.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace spf::sim {
 
 class Recorder : public TrialListener {
  public:
-  Recorder(const Scenario& scenario, const GridFrame& map_frame);
+  Recorder(const Scenario& scenario, const GridFrame& map_frame, const RecordLimit& limit);
 
   void frame(const TrialFrame& view) override;
   void planned(double time, const RobotAgent& agent, double plan_ms) override;
@@ -30,7 +30,9 @@ class Recorder : public TrialListener {
   void note_status(double time, int robot, const AgentStatus& status, const Eigen::Vector2d& position_world);
   void note_cells(double time, int robot, const OccupancyMap& map);
 
+  RecordLimit limit_;
   std::shared_ptr<Recording> recording_;
+  bool full_ = false;
   std::vector<StopCause> last_reason_;                    // by robot
   std::vector<std::uint64_t> last_revision_;              // of the maps, by robot
   std::vector<std::unordered_set<std::uint64_t>> cells_;  // occupied, by robot

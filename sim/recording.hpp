@@ -100,6 +100,12 @@ struct RecordedGoal {
   std::optional<host::Goal> goal;  ///< none: it is to go nowhere
 };
 
+/// When a recording ends before its trial does, so that a long one does not fill the memory.
+struct RecordLimit {
+  double always = 300.0;          ///< [s] that are recorded in any case
+  std::size_t records = 200'000;  ///< frames of one robot, about 4 kB each
+};
+
 struct Recording {
   Scenario scenario;
   double frame_interval = 0.1;  ///< [s]

@@ -108,7 +108,7 @@ Simulation::Implementation::Implementation(const Scenario& scenario,
       radio{scenario},
       meter{scenario.robots.size()} {
   const std::vector<Crew> crews = crews_of(scenario, agents);
-  if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame());
+  if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame(), options.record_limit);
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
     if (listener != nullptr) listeners.push_back(listener);
   const std::size_t count = scenario.robots.size();

@@ -11,6 +11,7 @@
 
 #include "host/contradictions.hpp"
 #include "host/host_parameters.hpp"
+#include "sim/recording.hpp"
 #include "sim/scenario.hpp"
 #include "sim/trial_listener.hpp"
 #include "sim/trial_result.hpp"
@@ -24,6 +25,7 @@ using ForEach = std::function<void(std::size_t count, const std::function<void(s
 
 struct SimulationOptions {
   bool record = false;  ///< fill TrialResult::recording
+  RecordLimit record_limit;
   /// Seconds of some steady clock; used to measure computing only. None: nothing is measured.
   std::function<double()> clock;
   /// Called every 0.1 simulated seconds with the time [s]; false ends the trial (as a timeout).

@@ -54,6 +54,23 @@ TEST_P(Tracking, ALoneRobotArrivesByTheStraightPath) {
 INSTANTIATE_TEST_SUITE_P(Both, Tracking, testing::Values(TrackingMode::ideal, TrackingMode::full),
                          [](const auto& which) { return std::string{enum_name(which.param)}; });
 
+TEST(Simulation, RecordsTheBeginningOfALongTrial) {
+  const auto frames = [](double always, std::size_t records) {
+    SimulationOptions options;
+    options.record = true;
+    options.record_limit = {always, records};
+    return run(lone_robot(TrackingMode::full), options).recording;
+  };
+  const std::size_t all = frames(300.0, 0)->frames.size();
+  EXPECT_GT(all, 100U);
+  EXPECT_EQ(frames(0.0, all)->frames.size(), all);
+  EXPECT_EQ(frames(3.0, 10)->frames.size(), 30U);
+  const auto cut = frames(0.0, 50);
+  EXPECT_EQ(cut->frames.size(), 50U);
+  EXPECT_LT(cut->plans.back().time, 5.2);
+  for (const RecordedEvent& event : cut->events) EXPECT_NE(event.kind, RecordedEvent::Kind::arrival);
+}
+
 TEST(Simulation, RepeatsBitForBitAndTakesNoNoticeOfClockOrRecording) {
   Scenario scenario = make_scenario(family_setup(Family::t2), kDefaultSeed, 10000);
   scenario.simulation.noise.level = 1.0;
