@@ -1,7 +1,8 @@
 # `cmake --install` puts the library where find_package(spf) finds it. The core is target spf::spf, every room of spf/ but
 # testing/, and needs Eigen alone. COMPONENTS of the package, each a folder or two of the repository:
 #   host        spf::host, spf::config     robots' hosts, and parameter files for them (needs yaml-cpp)
-#   simulator   spf::sim, spf::study       the world, and scenario files for it (needs host, libpng and nlohmann-json)
+#   simulator   spf::sim, spf::study, spf::simulator   the world, scenario files for it, and what serves it to robots
+#               elsewhere (needs host, libpng and nlohmann-json)
 # Experiments and reports are not part of the package.
 include(CMakePackageConfigHelpers)
 
@@ -34,7 +35,7 @@ if(PROJECT_IS_TOP_LEVEL)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/spf/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spf COMPONENT development
     FILES_MATCHING PATTERN "*.hpp" ${test_files})
   spf_install_component(host host config)
-  spf_install_component(simulator sim study)
+  spf_install_component(simulator sim study wire simulator)
 
   configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/spfConfig.cmake.in
     ${PROJECT_BINARY_DIR}/spfConfig.cmake INSTALL_DESTINATION ${package_dir})

@@ -1,8 +1,8 @@
 # The simulator: a world for robots whose nodes cannot tell it from hardware.
 add_library(spf_empc_simulator STATIC
-  src/simulated_bases.cpp src/simulator_config.cpp src/simulator_messages.cpp src/simulator_node.cpp)
+  src/simulator_config.cpp src/simulator_messages.cpp src/simulator_node.cpp)
 spf_ros_options(spf_empc_simulator)
-target_link_libraries(spf_empc_simulator PUBLIC spf_empc_ros spf::study spf::sim)
+target_link_libraries(spf_empc_simulator PUBLIC spf_empc_ros spf::simulator)
 spf_ros_node(simulator_node SOURCES src/simulator_node_main.cpp LIBRARIES spf_empc_simulator)
 spf_ros_node(robot_file SOURCES src/robot_file_main.cpp LIBRARIES spf::study spf::config)
 catkin_install_python(PROGRAMS scripts/fleet_rviz scripts/fleet_watch scripts/send_goal DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
@@ -11,7 +11,7 @@ install(DIRECTORY launch config rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINAT
 if(CATKIN_ENABLE_TESTING)
   find_package(GTest REQUIRED)
   add_executable(spf_empc_simulator_tests
-    test/composition_test.cpp test/package_files_test.cpp test/simulated_bases_test.cpp test/simulator_messages_test.cpp test/simulator_pace_test.cpp)
+    test/composition_test.cpp test/package_files_test.cpp test/simulator_messages_test.cpp)
   spf_ros_options(spf_empc_simulator_tests)
   set_source_files_properties(test/package_files_test.cpp PROPERTIES COMPILE_DEFINITIONS
     SPF_EMPC_ROS_DIR="${CMAKE_CURRENT_SOURCE_DIR}")

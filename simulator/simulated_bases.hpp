@@ -11,7 +11,7 @@
 #include "spf/math/index.hpp"
 #include "spf/robot/drive.hpp"
 
-namespace spf_empc_ros {
+namespace spf::simulator {
 
 /// How regularly a base was commanded.
 struct CommandRecord {
@@ -54,4 +54,4 @@ class SimulatedBases {
   std::vector<Base> bases_;
 };
 
-}  // namespace spf_empc_ros
+}  // namespace spf::simulator

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "spf_empc_ros/simulator_node.hpp"
+#include "simulator/pace.hpp"
 
-namespace spf_empc_ros {
+namespace spf::simulator {
 namespace {
 
 TEST(Pace, RunsAtItsSpeed) {
@@ -24,4 +24,4 @@ TEST(Pace, MakesUpForLittleAndShiftsForMuch) {
 }
 
 }  // namespace
-}  // namespace spf_empc_ros
+}  // namespace spf::simulator

@@ -1,11 +1,11 @@
-#include "spf_empc_ros/simulated_bases.hpp"
+#include "simulator/simulated_bases.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace spf_empc_ros {
+namespace spf::simulator {
 namespace {
 
 constexpr double kPeriod = 0.05;  // [s]
@@ -74,4 +74,4 @@ TEST(SimulatedBases, CountCommandsThatCameLate) {
 }
 
 }  // namespace
-}  // namespace spf_empc_ros
+}  // namespace spf::simulator

@@ -1,9 +1,9 @@
-#include "spf_empc_ros/simulated_bases.hpp"
+#include "simulator/simulated_bases.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace spf_empc_ros {
+namespace spf::simulator {
 
 SimulatedBases::SimulatedBases(const std::vector<spf::RobotParameters>& robots, double period)
     : period_{period} {
@@ -54,4 +54,4 @@ spf::DriveInput SimulatedBases::wheels(int robot, double time) const {
   return base.wheel_speeds;
 }
 
-}  // namespace spf_empc_ros
+}  // namespace spf::simulator
