@@ -12,16 +12,19 @@
 #include "ros2/node/node.hpp"
 #include "ros2/robot/perception_node.hpp"
 #include "ros2/robot/planner_node.hpp"
+#include "ros2/robot/simulator_config.hpp"
+#include "ros2/robot/simulator_node.hpp"
 #include "ros2/robot/tracker_node.hpp"
 
 namespace spf_ros2 {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: spf-ros2 planner | tracker | perception | robot [--ros-args ...]\n"
+    "usage: spf-ros2 planner | tracker | perception | robot | simulator [--ros-args ...]\n"
     "  robot is planner, tracker and perception in one process. Parameters: robot_id, frame, base_frame, "
     "config, map;\n"
-    "  namespace: -r __ns:=/robot0. Topics and parameters: docs/ros2.md.\n";
+    "  namespace: -r __ns:=/robot0. simulator stands for the world of a fleet: parameter scenario.\n"
+    "  Topics and parameters: docs/ros2.md.\n";
 
 /// SIGINT and SIGTERM, taken by whoever waits for them.
 class EndSignals {
@@ -144,6 +147,34 @@ int run_role(const std::string& role, const ros2::Arguments& arguments) {
   return 0;
 }
 
+/// The world of a fleet, on a thread of its own beside the one that waits for the end.
+int run_simulator(const ros2::Arguments& arguments) {
+  const EndSignals signals;
+  ros2::Context context{arguments, ros2::DomainOptions::from_environment()};
+  ros2::StopSwitch stop{context.participant};
+  ros2::Executor executor{context.participant};
+  ros2::Node node{context, executor, {"simulator"}};
+  const spf::simulator::Settings settings = read_simulator_config(node);
+  for (const std::string& name : node.parameters().unknown_given())
+    node.log().warn("there is no parameter '" + name + "'");
+  SimulatorNode simulator{node, executor, stop, settings};
+  int status = 1;
+  spf::WorkerPool threads{2};
+  threads.for_each(2, [&](std::size_t i) {
+    if (i == 0) {
+      signals.wait();
+      return stop.stop();
+    }
+    try {
+      status = simulator.run();
+    } catch (const std::exception& error) {
+      node.log()(ros2::LogLevel::fatal, error.what());
+    }
+    EndSignals::send();
+  });
+  return status;
+}
+
 }  // namespace
 
 int run_program(const std::vector<std::string>& arguments) {
@@ -154,6 +185,7 @@ int run_program(const std::vector<std::string>& arguments) {
       std::fputs(kUsage, stdout);
       return 0;
     }
+    if (role == "simulator") return run_simulator(given);
     if (role != "planner" && role != "tracker" && role != "perception" && role != "robot") {
       std::fputs(kUsage, stderr);
       return 2;
