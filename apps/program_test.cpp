@@ -41,7 +41,8 @@ TEST_F(Program, RefusesBadUsage) {
        {"", "fly", "run", "run good.yaml --fly", "run good.yaml --trials 0", "run good.yaml --trials 2.5",
         "run good.yaml --jobs -1", "run good.yaml --first x", "run good.yaml --out", "run good.yaml extra",
         "check", "parameters --markdown --json", "run good.yaml --seed",
-        "run good.yaml --trials 1 --trials 2"}) {
+        "run good.yaml --trials 1 --trials 2", "run good.yaml --trials 2 --mcap a.mcap",
+        "run good.yaml --mcap nowhere/a.mcap"}) {
     const Finished finished = run(arguments);
     EXPECT_EQ(finished.status, 2) << arguments;
     EXPECT_NE(finished.error, "") << arguments;

@@ -11,6 +11,7 @@
 #include "experiments/campaign_run.hpp"
 #include "experiments/replay_export.hpp"
 #include "experiments/trial_store.hpp"
+#include "mcap/trial_recorder.hpp"
 #include "parallel/worker_pool.hpp"
 #include "report/replay_page.hpp"
 #include "report/table.hpp"
@@ -27,6 +28,7 @@ struct RunOptions {
   int replays = 10;
   std::string out;
   std::string json;
+  std::string mcap;
   bool quiet = false;
   std::vector<std::string> command;
   MethodTable methods;
@@ -70,7 +72,11 @@ class Run {
                      " times real time");
       return !interrupted();
     };
+    std::optional<mcap::TrialRecorder> recorder;
+    if (!options_.mcap.empty())
+      trial.listener = &recorder.emplace(options_.mcap, make_trial(cell().config, options_.first));
     const FinishedTrial finished = run_trial(cell(), options_.first, trial);
+    if (recorder) recorder->close();
     if (finished.stopped) {
       progress_.end();
       std::cerr << "interrupted after " << fixed(finished.record.sim_time, 1)
@@ -173,6 +179,8 @@ class Run {
 int run(const RunOptions& options) {
   RunConfiguration config =
       read_run_configuration(options.file, options.scenario.to_settings(), options.methods);
+  if (options.trials && !options.mcap.empty())
+    throw InputError{{"--mcap", 0, 0}, "records a single run: leave --trials out, --first chooses the trial"};
   const std::string problem = trials_problem(config, options.first, options.trials.value_or(1));
   if (!problem.empty()) throw InputError{{options.trials ? "--trials" : "--first", 0, 0}, problem};
   print_warnings(config.warnings);
@@ -205,6 +213,9 @@ Verb add_run(CLI::App& program, const MethodTable& methods) {
   app->add_option("--json", options->json,
                   "file for the row of results, one JSON object; - prints it, and nothing else")
       ->type_name("FILE");
+  app->add_option("--mcap", options->mcap,
+                  "without --trials: file for a recording of the trial, for Foxglove and ROS 2's tools")
+      ->type_name("FILE");
   app->add_option("--replays", options->replays,
                   "with --trials and --out: replay pages of at most this many failed trials (default 10)")
       ->type_name("N")
@@ -215,6 +226,7 @@ Verb add_run(CLI::App& program, const MethodTable& methods) {
       "  spf run scenarios/f7.yaml --out results/f7           # then open results/f7/replay.html\n"
       "  spf run scenarios/t2.yaml --trials 50 --jobs 2 --noise walk --level 1 --json row.jsonl\n"
       "  spf run scenarios/t2.yaml --first 17 --method spf_empc --out results/trial17\n"
+      "  spf run scenarios/swap.yaml --mcap swap.mcap\n"
       "  spf run scenarios/field.yaml --set robots=200 --set sensing.range=5\n"
       "Exit status: 0 done (a single run: every robot at its goal without contact), 1 a single run that "
       "failed,\n"

@@ -1,6 +1,7 @@
 #include "experiments/trial_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -120,6 +121,44 @@ TrialRecord record_of(const Cell& cell, const sim::TrialResult& result, const Tr
   return record;
 }
 
+/// Tells two listeners, the first of them first.
+class BothListeners : public sim::TrialListener {
+ public:
+  BothListeners(sim::TrialListener& first, sim::TrialListener& second) : both_{&first, &second} {}
+
+  void frame(const sim::TrialFrame& frame) override {
+    for (auto* one : both_) one->frame(frame);
+  }
+  void thought(double time, int robot, const sim::RobotInput& input,
+               const sim::RobotAction& action) override {
+    for (auto* one : both_) one->thought(time, robot, input, action);
+  }
+  void planned(double time, const RobotAgent& agent, double plan_ms) override {
+    for (auto* one : both_) one->planned(time, agent, plan_ms);
+  }
+  void controlled(double time, int robot, double control_us) override {
+    for (auto* one : both_) one->controlled(time, robot, control_us);
+  }
+  void stopped(double time, const RobotAgent& agent) override {
+    for (auto* one : both_) one->stopped(time, agent);
+  }
+  void contact(const sim::Contact& contact) override {
+    for (auto* one : both_) one->contact(contact);
+  }
+  void hit_while_standing(const sim::Contact& contact) override {
+    for (auto* one : both_) one->hit_while_standing(contact);
+  }
+  void ordered(double time, const sim::FleetOrder& order, const Eigen::Vector2d& position) override {
+    for (auto* one : both_) one->ordered(time, order, position);
+  }
+  void arrived(double time, int robot, const Eigen::Vector2d& position) override {
+    for (auto* one : both_) one->arrived(time, robot, position);
+  }
+
+ private:
+  std::array<sim::TrialListener*, 2> both_;
+};
+
 }  // namespace
 
 FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options) {
@@ -130,6 +169,8 @@ FinishedTrial run_trial(const Cell& cell, int trial, const TrialOptions& options
   simulation.record = options.record;
   simulation.clock = options.clock;
   simulation.listener = &watch;
+  std::optional<BothListeners> both;
+  if (options.listener != nullptr) simulation.listener = &both.emplace(watch, *options.listener);
   if (options.progress)
     simulation.progress = [&](double time) { return !(finished.stopped = !options.progress(time)); };
   WorkerPool robots{options.threads};

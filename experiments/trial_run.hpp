@@ -9,6 +9,7 @@
 #include "experiments/campaign.hpp"
 #include "experiments/trial_record.hpp"
 #include "sim/recording.hpp"
+#include "sim/trial_listener.hpp"
 
 namespace spf {
 
@@ -18,6 +19,7 @@ struct TrialOptions {
   std::function<double()> clock;  ///< [s] steady, callable from any thread; none: nothing is timed
   /// Called every 0.1 simulated seconds with the time [s]; false stops the trial.
   std::function<bool(double)> progress;
+  sim::TrialListener* listener = nullptr;  ///< told of what happens; must outlive the trial
 };
 
 struct FinishedTrial {

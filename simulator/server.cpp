@@ -70,7 +70,7 @@ bool Server::wait_for_robots(Outlet& outlet) {
 int Server::run(Outlet& outlet) {
   world_.begin_tick();
   tell_poses(outlet);
-  outlet.scene(world_);
+  tell(outlet, &WorldListener::scene);
   tell_outcome(outlet);
   if (settings_.waits_for_robots && !wait_for_robots(outlet)) return settings_.quits_when_done ? 1 : 0;
   outlet.begin(world_);
@@ -93,7 +93,7 @@ bool Server::tick(Outlet& outlet) {
     tell_poses(outlet);
   }
   if (world_.observation_due()) tell_observations(outlet);
-  if (world_.step_due()) outlet.scene(world_);
+  if (world_.step_due()) tell(outlet, &WorldListener::scene);
   if (world_.time() + kTimeRounding >= next_outcome_) tell_outcome(outlet);
   const bool goes_on = outlet.serve_until(pace_.due(world_.next_time()));
   for (int i = 0; i < count(); ++i) world_.command(i, bases_.wheels(i, world_.time()));
@@ -110,10 +110,10 @@ void Server::tell_orders(Outlet& outlet) const {
   for (const sim::FleetOrder& order : world_.orders()) {
     const sim::RobotTruth& truth = world_.robots()[as_index(order.robot)];
     if (order.act == FleetAct::goal && settings_.publishes_goals)
-      outlet.goal(world_, order.robot, order.goal, truth.pose.heading);
+      tell(outlet, &WorldListener::goal, order.robot, order.goal, truth.pose.heading);
     for (const FleetAct told :
          {FleetAct::cancel, FleetAct::pause, FleetAct::resume, FleetAct::stop, FleetAct::release})
-      if (order.act == told) outlet.order(world_, order);
+      if (order.act == told) tell(outlet, &WorldListener::order, order);
   }
 }
 
@@ -129,11 +129,11 @@ void Server::tell_poses(Outlet& outlet) {
   for (int i = 0; i < count(); ++i) {
     if (!world_.robots()[as_index(i)].active()) continue;
     const PoseMeasurement measured = world_.measure_pose(i);
-    if (!dropped(FaultyTopic::odom, i)) outlet.pose(world_, i, measured.pose_world);
+    if (!dropped(FaultyTopic::odom, i)) tell(outlet, &WorldListener::pose, i, measured.pose_world);
   }
   if (world_.time() + kTimeRounding < next_truth_) return;
   next_truth_ += kTruthPeriod;
-  outlet.truth(world_);
+  tell(outlet, &WorldListener::truth);
 }
 
 void Server::tell_observations(Outlet& outlet) {
@@ -141,20 +141,21 @@ void Server::tell_observations(Outlet& outlet) {
   for (int i = 0; i < count(); ++i) {
     if (!world_.robots()[as_index(i)].active()) continue;
     world_.observe(i, observation_);
-    if (reports && !dropped(FaultyTopic::obstacles, i)) outlet.obstacles(world_, i, observation_.detections);
-    if (!dropped(FaultyTopic::scan, i)) outlet.scan(world_, i, *observation_.scan);
+    if (reports && !dropped(FaultyTopic::obstacles, i))
+      tell(outlet, &WorldListener::obstacles, i, observation_.detections);
+    if (!dropped(FaultyTopic::scan, i)) tell(outlet, &WorldListener::scan, i, *observation_.scan);
   }
 }
 
 void Server::tell_outcome(Outlet& outlet) {
   next_outcome_ = world_.time() + kOutcomePeriod;
-  outlet.outcome(world_, end_ ? *end_ : world_.result(), end_.has_value());
+  tell(outlet, &WorldListener::outcome, end_ ? *end_ : world_.result(), end_.has_value());
 }
 
 void Server::note_end(Outlet& outlet) {
   end_ = world_.result();
-  outlet.outcome(world_, *end_, true);
-  outlet.scene(world_);
+  tell(outlet, &WorldListener::outcome, *end_, true);
+  tell(outlet, &WorldListener::scene);
   outlet.say(summary());
   if (settings_.quits_when_done) (void)outlet.serve_until(outlet.wall() + 0.5);  // the last messages leave
 }

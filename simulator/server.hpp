@@ -63,6 +63,8 @@ class Server {
     bases_.command_wheels(robot, wheel_speeds, world_.time());
   }
 
+  /// Of whatever goes out. Must outlive the server.
+  void record_by(WorldListener& recorder) { recorder_ = &recorder; }
   /// Until the trial has ended (quits_when_done) or the outlet says so. Returns the program's exit status: 0
   /// unless the trial failed, or was to end and did not.
   int run(Outlet& outlet);
@@ -72,6 +74,12 @@ class Server {
   [[nodiscard]] std::string timing() const;
 
  private:
+  /// By a member function of WorldListener.
+  template <class... Parameters, class... Arguments>
+  void tell(Outlet& outlet, void (WorldListener::*what)(Parameters...), const Arguments&... arguments) const {
+    (outlet.*what)(world_, arguments...);
+    if (recorder_ != nullptr) (recorder_->*what)(world_, arguments...);
+  }
   [[nodiscard]] bool wait_for_robots(Outlet& outlet);
   [[nodiscard]] std::string missing(const Outlet& outlet) const;
   [[nodiscard]] bool tick(Outlet& outlet);
@@ -89,6 +97,7 @@ class Server {
   Pace pace_;
   Observation observation_;  // kept for its memory
   std::optional<sim::TrialResult> end_;
+  WorldListener* recorder_ = nullptr;
   struct {
     double began = 0.0;  // [s] on the wall
     double ended = 0.0;  // [s] likewise, so far

@@ -48,6 +48,7 @@ class Struct:
     name: str
     fields: list = field(default_factory=list)
     constants: list = field(default_factory=list)  # (kind, name, value)
+    text: str = ""  # of a message: its definition
 
     @property
     def full_name(self):
@@ -108,7 +109,7 @@ def structs_of(path, package):
     parts = read_parts(path, package)
     name, kind = path.stem, path.suffix[1:]
     if kind == "msg":
-        return [Struct(package, kind, name, *parts[0])]
+        return [Struct(package, kind, name, *parts[0], path.read_text(encoding="utf-8"))]
     if kind == "srv":
         return [Struct(package, kind, f"{name}_{end}", *part) for end, part in zip(("Request", "Response"), parts)]
     own = f"{package}/action/{name}_"
@@ -161,6 +162,13 @@ def type_hash(struct, structs):
     return "RIHS01_" + hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
+def whole_definition(struct, structs):
+    """A message's definition with those of all types that it reaches, as recordings hold it (schema encoding ros2msg)."""
+    nested = nested_types(struct, structs)
+    parts = [struct.text] + [f"MSG: {nested[name].package}/{nested[name].name}\n{nested[name].text}" for name in sorted(nested)]
+    return ("=" * 80 + "\n").join(part.rstrip("\n") + "\n" for part in parts)
+
+
 # ---- C++
 
 def cpp_type(item, own):
@@ -195,6 +203,8 @@ def cpp_struct(struct, own, structs):
              f"  static constexpr const char* kKind = \"{struct.kind}\";",
              f"  static constexpr const char* kName = \"{struct.name}\";",
              f"  static constexpr const char* kTypeHash =\n      \"{type_hash(struct, structs)}\";"]
+    if struct.text:
+        lines.append(f'  static constexpr const char* kDefinition = R"ros2msg({whole_definition(struct, structs)})ros2msg";')
     for kind, name, value in struct.constants:
         base = "const char*" if kind == "string" else PRIMITIVES[kind][0]
         lines.append(f"  static constexpr {base} {name} = {literal(kind, value)};")

@@ -52,6 +52,11 @@ class Generator(unittest.TestCase):
         self.assertIn("#include <ros2_messages/a/A.hpp>", made["b/B.hpp"])
         self.assertIn("::ros2::b::C two{};", made["b/B.hpp"])
 
+    def test_a_message_knows_its_whole_definition(self):
+        made = self.made_of({"a/msg/A.msg": "b/B one\nC two\n", "a/msg/C.msg": "bool y\n", "b/msg/B.msg": "a/C[] all\n"})[2]
+        rule = "=" * 80
+        self.assertIn(f"b/B one\nC two\n{rule}\nMSG: a/C\nbool y\n{rule}\nMSG: b/B\na/C[] all\n)ros2msg", made["a/A.hpp"])
+
     def test_a_distribution_has_its_own_namespace_and_hash(self):
         files = {"p/msg/M.msg": "int32 x\n", "old/p/msg/M.msg": "int64 x\n"}
         made = self.made_of(files)[2]

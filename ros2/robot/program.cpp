@@ -155,9 +155,11 @@ int run_simulator(const ros2::Arguments& arguments) {
   ros2::Executor executor{context.participant};
   ros2::Node node{context, executor, {"simulator"}};
   const spf::simulator::Settings settings = read_simulator_config(node);
+  const std::string mcap = node.parameters().declare_as("mcap", std::string{},
+                                                        {"file for a recording; none: empty", true, {}, {}});
   for (const std::string& name : node.parameters().unknown_given())
     node.log().warn("there is no parameter '" + name + "'");
-  SimulatorNode simulator{node, executor, stop, settings};
+  SimulatorNode simulator{node, executor, stop, settings, mcap};
   int status = 1;
   spf::WorkerPool threads{2};
   threads.for_each(2, [&](std::size_t i) {

@@ -2,7 +2,12 @@
 
 #include <chrono>
 #include <cstdio>
+#include <ros2_messages/diagnostic_msgs/DiagnosticArray.hpp>
 #include <ros2_messages/geometry_msgs/Twist.hpp>
+#include <ros2_messages/nav_msgs/Path.hpp>
+#include <ros2_messages/spf_empc_msgs/RobotStatus.hpp>
+#include <ros2_messages/spf_empc_msgs/TrackerStatus.hpp>
+#include <ros2_messages/spf_empc_msgs/Trajectory.hpp>
 #include <ros2_messages/spf_empc_msgs/WheelSpeeds.hpp>
 
 #include "ros2/robot/topics.hpp"
@@ -16,7 +21,7 @@ using spf::as_index;
 using spf::sim::World;
 
 SimulatorNode::SimulatorNode(ros2::Node& node, ros2::Executor& executor, const ros2::StopSwitch& stop,
-                             const spf::simulator::Settings& settings)
+                             const spf::simulator::Settings& settings, const std::string& mcap)
     : node_{node},
       executor_{executor},
       stop_{stop},
@@ -33,6 +38,26 @@ SimulatorNode::SimulatorNode(ros2::Node& node, ros2::Executor& executor, const r
       spf::simulator::map_cells(settings.scenario, settings.map_resolution);
   map_.publish(
       spf::simulator::map_message<ros2::nav_msgs::OccupancyGrid>(cells, settings.frame, stamp().time));
+  if (!mcap.empty()) record(mcap);
+}
+
+void SimulatorNode::record(const std::string& mcap) {
+  const ros2::Nanoseconds epoch = ros2::nanoseconds_of(clock_.time(0.0));
+  recording_.emplace(mcap, spf::mcap::RecordClock{static_cast<std::uint64_t>(epoch)});
+  recorder_.emplace(*recording_, settings());
+  server_.record_by(*recorder_);
+  const Qos often = Qos::keep_last(20);
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const std::string name = "/" + spf::simulator::robot_name(static_cast<int>(i)) + "/";
+    record_topic<ros2::nav_msgs::Path>(name + "path", often);
+    record_topic<ros2::visualization_msgs::MarkerArray>(name + "markers", often);
+    record_topic<ros2::nav_msgs::OccupancyGrid>(name + "grid", kMaps);
+    record_topic<ros2::spf_empc_msgs::RobotStatus>(name + "status", often);
+    record_topic<ros2::spf_empc_msgs::TrackerStatus>(name + "tracker_status", often);
+    record_topic<ros2::spf_empc_msgs::ObstacleTracks>(name + "tracks", often);
+  }
+  record_topic<ros2::diagnostic_msgs::DiagnosticArray>("/diagnostics", Qos::keep_last(100));
+  record_topic<ros2::spf_empc_msgs::Trajectory>("/swarm/trajectories", kPeers);
 }
 
 void SimulatorNode::connect(int robot) {
@@ -77,6 +102,7 @@ void SimulatorNode::begin(const World& world) {
 
 int SimulatorNode::run() {
   const int status = server_.run(*this);
+  if (recording_) recording_->close();
   std::printf("%s\n%s", server_.summary().c_str(), server_.timing().c_str());
   std::fflush(stdout);
   return status;

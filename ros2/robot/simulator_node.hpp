@@ -2,6 +2,7 @@
 // Robots' nodes cannot tell it from hardware. Topics and parameters: docs/ros2.md.
 #pragma once
 
+#include <optional>
 #include <ros2_messages/geometry_msgs/PoseStamped.hpp>
 #include <ros2_messages/nav_msgs/OccupancyGrid.hpp>
 #include <ros2_messages/nav_msgs/Odometry.hpp>
@@ -16,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "mcap/world_recorder.hpp"
 #include "ros2/node/node.hpp"
 #include "ros2/robot/clock_edge.hpp"
 #include "simulator/server.hpp"
@@ -25,14 +27,17 @@ namespace spf_ros2 {
 
 class SimulatorNode : public spf::simulator::Outlet {
  public:
-  /// `node` is in the fleet's namespace (usually the root); `executor` serves it until `stop`.
+  /// `node` is in the fleet's namespace (usually the root); `executor` serves it until `stop`. What goes out,
+  /// and what robots show of themselves, is recorded into `mcap`, a file; empty: nothing is. Throws
+  /// std::exception when scenario or file are of no use.
   SimulatorNode(ros2::Node& node, ros2::Executor& executor, const ros2::StopSwitch& stop,
-                const spf::simulator::Settings& settings);
+                const spf::simulator::Settings& settings, const std::string& mcap = "");
   SimulatorNode(const SimulatorNode&) = delete;
   SimulatorNode& operator=(const SimulatorNode&) = delete;
 
   /// Until the trial has ended (quit_when_done) or somebody stops it. Returns the program's exit status: 0
-  /// unless the trial failed, or was to end and did not.
+  /// unless the trial failed, or was to end and did not. Throws std::runtime_error when the recording could
+  /// not be written.
   int run();
 
   void clock(const spf::sim::World& world) override;
@@ -64,6 +69,14 @@ class SimulatorNode : public spf::simulator::Outlet {
   };
   using Stamp = spf::simulator::Stamp<ros2::builtin_interfaces::Time>;
   void connect(int robot);
+  void record(const std::string& mcap);
+  /// Messages of a topic that somebody else publishes.
+  template <class Message>
+  void record_topic(const std::string& topic, const ros2::Qos& qos) {
+    node_.subscribe<Message>(topic, qos, [this, topic](const Message& message) {
+      recording_->add(topic, server_.world().time(), message);
+    });
+  }
   [[nodiscard]] const spf::simulator::Settings& settings() const { return server_.settings(); }
   [[nodiscard]] Stamp stamp() const { return {settings().frame, clock_.time(server_.world().time())}; }
 
@@ -78,6 +91,8 @@ class SimulatorNode : public spf::simulator::Outlet {
   ros2::Publisher<ros2::tf2_msgs::TFMessage> transforms_;
   ros2::Publisher<ros2::visualization_msgs::MarkerArray> markers_;
   ros2::Publisher<ros2::spf_empc_msgs::TrialOutcome> outcome_;
+  std::optional<spf::mcap::Recording> recording_;
+  std::optional<spf::mcap::WorldRecorder> recorder_;
 };
 
 }  // namespace spf_ros2
