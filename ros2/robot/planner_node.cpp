@@ -80,6 +80,8 @@ void PlannerNode::listen() {
   node_.subscribe<Trajectory>("/swarm/trajectories", kPeers,
                               [this](const Trajectory& message) { on_peer(message); });
   node_.subscribe<OccupancyGrid>("/map", kMaps, [this](const OccupancyGrid& map) { on_map(map); });
+  node_.subscribe<ros2::nav2_msgs::SpeedLimit>("speed_limit", ros2::Qos::keep_last(10),
+                                               [this](const auto& limit) { on_speed_limit(limit); });
 }
 
 void PlannerNode::refuse(const char* what, const std::string& why, bool harmless) {
@@ -147,6 +149,16 @@ void PlannerNode::on_map(const OccupancyGrid& map) {
   given_map_ = map;
   pictures_.shown_revision.reset();
   host_.planner().set_map(std::move(*known.value));
+}
+
+/// As Nav2's filters tell it: m/s or % of the robot's own, 0 for none. The parameter of that name changes.
+void PlannerNode::on_speed_limit(const ros2::nav2_msgs::SpeedLimit& limit) {
+  const double own = config_.agent.robot.max_speed;
+  if (!(limit.speed_limit >= 0.0)) return refuse("speed_limit", "it is negative or not a number");
+  const double wanted = limit.percentage ? 0.01 * limit.speed_limit * own : limit.speed_limit;
+  const double limited = wanted == 0.0 ? own : std::min(wanted, own);
+  const std::string fault = node_.parameters().set({{"speed_limit", limited}});
+  if (!fault.empty()) refuse("speed_limit", fault);
 }
 
 void PlannerNode::reconfigure(const RunTimeSettings& settings) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <ros2_messages/nav2_msgs/SpeedLimit.hpp>
 #include <ros2_messages/nav_msgs/OccupancyGrid.hpp>
 #include <ros2_messages/nav_msgs/Odometry.hpp>
 #include <ros2_messages/nav_msgs/Path.hpp>
@@ -39,6 +40,7 @@ class PlannerNode {
   void on_observation(const ros2::spf_empc_msgs::Observation& observation);
   void on_peer(const ros2::spf_empc_msgs::Trajectory& message);
   void on_map(const ros2::nav_msgs::OccupancyGrid& map);
+  void on_speed_limit(const ros2::nav2_msgs::SpeedLimit& limit);
   void reconfigure(const RunTimeSettings& settings);
   void step();
   void publish_plan(const spf::host::PlannerOutput& output);

@@ -12,6 +12,7 @@
 #include <ros2_messages/geometry_msgs/PoseStamped.hpp>
 #include <ros2_messages/geometry_msgs/Twist.hpp>
 #include <ros2_messages/nav2_msgs/NavigateToPose.hpp>
+#include <ros2_messages/nav2_msgs/SpeedLimit.hpp>
 #include <ros2_messages/nav_msgs/OccupancyGrid.hpp>
 #include <ros2_messages/nav_msgs/Odometry.hpp>
 #include <ros2_messages/nav_msgs/Path.hpp>
@@ -201,6 +202,7 @@ TEST(Robot, PausesByParameterAndTopic) {
   World world;
   using namespace ros2::rcl_interfaces;
   const auto pause = world.node().advertise<ros2::std_msgs::Bool>("pause", Qos::latched());
+  const auto speed_limit = world.node().advertise<ros2::nav2_msgs::SpeedLimit>("speed_limit");
   const auto set = world.node().client<SetParameters_Request, SetParameters_Response>(
       "planner/set_parameters", Qos::parameters());
   ASSERT_TRUE(world.wait_for_robot());
@@ -230,6 +232,14 @@ TEST(Robot, PausesByParameterAndTopic) {
   EXPECT_TRUE(go_on_until([&] { return world.speed() > 0.25; })) << world.status().reason;
   for (int i = 0; i < 10 && world.go_on(); ++i) EXPECT_LT(world.speed(), 0.33);
   EXPECT_THAT(set_parameter("speed_limit", 1000.0), testing::HasSubstr("speed_limit = 1000"));
+  ros2::nav2_msgs::SpeedLimit limit;
+  limit.percentage = true;
+  limit.speed_limit = 60.0;
+  speed_limit.publish(limit);
+  EXPECT_TRUE(go_on_until([&] { return world.speed() > 0.55; })) << world.status().reason;
+  for (int i = 0; i < 5 && world.go_on(); ++i) EXPECT_LT(world.speed(), 0.63);
+  limit.speed_limit = -1.0;
+  speed_limit.publish(limit);
   ros2::std_msgs::Bool yes;
   yes.data = true;
   pause.publish(yes);
@@ -361,6 +371,8 @@ TEST(Program, RefusesWhatItCannotUse) {
   EXPECT_EQ(Program({"robot", "--ros-args", "-p", "robot_id:=-1"}).end(0), 2);
   EXPECT_EQ(Program({"robot", "--ros-args", "-p", "config:=/nowhere/robot.yaml"}).end(0), 2);
   EXPECT_EQ(Program({"robot", "--ros-args", "-p", "speed_limit:=900.0"}).end(0), 2);
+  EXPECT_EQ(Program({"simulator"}).end(0), 2) << "no scenario";
+  EXPECT_EQ(Program({"simulator", "--ros-args", "-p", "scenario:=/nowhere/scene.yaml"}).end(0), 2);
   EXPECT_EQ(Program({"--help"}).end(0), 0);
 }
 
