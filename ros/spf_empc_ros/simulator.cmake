@@ -4,7 +4,7 @@ add_library(spf_empc_simulator STATIC
 spf_ros_options(spf_empc_simulator)
 target_link_libraries(spf_empc_simulator PUBLIC spf_empc_ros spf::simulator)
 spf_ros_node(simulator_node SOURCES src/simulator_node_main.cpp LIBRARIES spf_empc_simulator)
-spf_ros_node(robot_file SOURCES src/robot_file_main.cpp LIBRARIES spf::study spf::config)
+spf_ros_node(robot_file SOURCES src/robot_file_main.cpp LIBRARIES spf::simulator)
 catkin_install_python(PROGRAMS scripts/fleet_rviz scripts/fleet_watch scripts/send_goal DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY launch config rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 

@@ -15,6 +15,7 @@
 #include "ros2/robot/simulator_config.hpp"
 #include "ros2/robot/simulator_node.hpp"
 #include "ros2/robot/tracker_node.hpp"
+#include "simulator/robot_file.hpp"
 
 namespace spf_ros2 {
 namespace {
@@ -24,6 +25,8 @@ constexpr const char* kUsage =
     "  robot is planner, tracker and perception in one process. Parameters: robot_id, frame, base_frame, "
     "config, map;\n"
     "  namespace: -r __ns:=/robot0. simulator stands for the world of a fleet: parameter scenario.\n"
+    "spf-ros2 robot-file SCENARIO [--robot NUMBER] [KEY=VALUE...]\n"
+    "  prints the parameter file of a scenario's robots, for `config`.\n"
     "  Topics and parameters: docs/ros2.md.\n";
 
 /// SIGINT and SIGTERM, taken by whoever waits for them.
@@ -181,6 +184,9 @@ int run_simulator(const ros2::Arguments& arguments) {
 
 int run_program(const std::vector<std::string>& arguments) {
   try {
+    if (arguments.size() > 1 && arguments[1] == "robot-file")
+      return spf::simulator::print_robot_file("spf-ros2 robot-file",
+                                              {arguments.begin() + 2, arguments.end()});
     const ros2::Arguments given = ros2::Arguments::parse(arguments);
     const std::string role = given.others.size() == 2 ? given.others[1] : "";
     if (role == "-h" || role == "--help") {
