@@ -253,7 +253,8 @@ std::string domain_settings(const DomainOptions& options) {
         "<General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
         "<AllowMulticast>false</AllowMulticast></General>";
   xml += "<Discovery>";
-  if (options.localhost_only) xml += "<Peers><Peer address=\"localhost\"/></Peers>";
+  // Not by its name, which a bare machine does not know.
+  if (options.localhost_only) xml += "<Peers><Peer address=\"127.0.0.1\"/></Peers>";
   xml += "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>";
   xml += "</Discovery></Domain></CycloneDDS>";
   const std::string more = variable("CYCLONEDDS_URI");
