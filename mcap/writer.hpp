@@ -36,7 +36,7 @@ class Writer {
   Id add_schema(const Schema& schema);
   /// `encoding` of its messages: cdr, json.
   Id add_channel(Id schema, const std::string& topic, const std::string& encoding);
-  void write(Id channel, std::uint64_t time, std::string_view message);
+  void write(Id id, std::uint64_t time, std::string_view message);
 
   /// Ends the file with its summary. Throws std::runtime_error when something could not be written, now or
   /// before.
