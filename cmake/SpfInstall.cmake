@@ -3,7 +3,9 @@
 #   host        spf::host, spf::config     robots' hosts, and parameter files for them (needs yaml-cpp)
 #   simulator   spf::sim, spf::study, spf::simulator   the world, scenario files for it, and what serves it to robots
 #               elsewhere (needs host, libpng and nlohmann-json)
-# Experiments and reports are not part of the package.
+#   report      spf::report                tables, charts, still pictures and replay pages (needs nlohmann-json)
+#   experiments spf::experiments           trials and campaigns (needs simulator and report)
+#   program     spf::apps                  the spf program as a function, for methods of one's own (needs experiments and CLI11)
 include(CMakePackageConfigHelpers)
 
 get_property(core_targets GLOBAL PROPERTY SPF_CORE_TARGETS)
@@ -18,11 +20,13 @@ set(test_files PATTERN "testing" EXCLUDE PATTERN "test" EXCLUDE PATTERN "*_test.
 # spf_install_component(NAME rooms...): their libraries and headers, as export set spf_NAME.
 function(spf_install_component NAME)
   foreach(room IN LISTS ARGN)
-    if(NOT TARGET spf_${room})
+    string(REPLACE "/" "_" target spf_${room})
+    if(NOT TARGET ${target})
       return()
     endif()
-    install(TARGETS spf_${room} EXPORT spf_${NAME} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spf_rooms COMPONENT development
+    install(TARGETS ${target} EXPORT spf_${NAME} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    cmake_path(GET room PARENT_PATH above)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/spf_rooms/${above} COMPONENT development
       FILES_MATCHING PATTERN "*.hpp" ${test_files} PATTERN "test_data" EXCLUDE)
   endforeach()
   install(EXPORT spf_${NAME} FILE spf_${NAME}.cmake NAMESPACE spf:: DESTINATION ${package_dir} COMPONENT development)
@@ -36,6 +40,9 @@ if(PROJECT_IS_TOP_LEVEL)
     FILES_MATCHING PATTERN "*.hpp" ${test_files})
   spf_install_component(host host config)
   spf_install_component(simulator sim study wire simulator)
+  spf_install_component(report report)
+  spf_install_component(experiments parallel experiments)
+  spf_install_component(program ros2/messages mcap apps)
 
   configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/spfConfig.cmake.in
     ${PROJECT_BINARY_DIR}/spfConfig.cmake INSTALL_DESTINATION ${package_dir})

@@ -1,11 +1,12 @@
-// The smallest host of a robot outside the project: find_package(spf), one target, one class
-// (RobotHost::step). The robot is moved as it plans; a real host would drive the wheels and report the
+// One robot past a box and a person: the smallest host of a robot outside the project, one target and one
+// class (RobotHost::step). The robot is moved as it plans; a real host would drive the wheels and report the
 // measured pose (add_pose).
 #include <host/robot_host.hpp>
 
 #include <algorithm>
-#include <iomanip>
 #include <iostream>
+
+#include "picture.hpp"
 
 int main() {
   const Eigen::Vector2d goal{4.0, 0.0};
@@ -20,6 +21,8 @@ int main() {
   robot.planner().set_goal({goal, std::nullopt});
   robot.start(map, {{-4.0, 0.0}, 0.0}, 0.0);
 
+  Picture picture{{-5.0, -2.0}, {5.5, 2.0}};
+  picture.box(box_low, box_high, "wall");
   double least_clearance = 1e9;  // [m] between surfaces
   for (int tick = 0; tick < 3000 && robot.agent().status().reason != spf::StopCause::arrived; ++tick) {
     const double time = 0.01 * tick;
@@ -30,10 +33,15 @@ int main() {
 
     const double to_box = (box_low - position).cwiseMax(position - box_high).cwiseMax(0.0).norm();
     least_clearance = std::min({least_clearance, to_box - 0.3, (position - obstacle).norm() - 0.7});
-    if (tick % 50 == 0)
-      std::cout << std::fixed << std::setprecision(2) << time << " s  " << position.transpose() << " m\n";
+    if (tick % 100 == 0) {
+      picture.disc(position, 0.3, "robot-0", 0.15);
+      picture.disc(obstacle, 0.4, "obstacle", 0.15);
+      picture.text(obstacle - Eigen::Vector2d{0.1, 0.1}, spf::fixed(time, 0));
+      picture.text(position - Eigen::Vector2d{0.1, 0.1}, spf::fixed(time, 0));
+    }
   }
   const spf::StopCause cause = robot.agent().status().reason;
-  std::cout << to_string(cause) << ", least clearance " << least_clearance << " m\n";
+  picture.save("04_one_robot.svg");
+  std::cout << to_string(cause) << ", least clearance " << spf::fixed(least_clearance, 2) << " m\n";
   return cause == spf::StopCause::arrived && least_clearance > 0.0 ? 0 : 1;
 }
