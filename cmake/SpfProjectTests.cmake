@@ -23,6 +23,9 @@ if(Python3_FOUND)
   spf_project_test(check_citations ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_citations.py)
   spf_project_test(check_citations_catches ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_citations_test.py)
   spf_project_test(paper_notes_tests_exist ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/check_paper_notes.py)
+  if(TARGET spf)
+    spf_project_test(program_pages ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/script/program_pages_test.py $<TARGET_FILE:spf>)
+  endif()
 endif()
 spf_project_test(install_example ${CMAKE_COMMAND}
   -D BUILD_DIR=${PROJECT_BINARY_DIR} -D CONFIG=$<CONFIG> -D SOURCE_DIR=${PROJECT_SOURCE_DIR}
