@@ -43,6 +43,7 @@ endforeach()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME spf)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "planner and simulator for robots among people")
 set(CPACK_PACKAGE_CONTACT "SPF-EMPC contributors <spf-empc@spf-empc.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -58,11 +59,10 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME spf)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "planner and simulator for robots among people
- Simulates fleets of ground robots that reach their goals among people and
- machines that move unpredictably, runs experiments, and shows trials in a
- replay page. It holds the SPF-EMPC planner and controller, a space-time
- planner, and baselines.")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "The program spf simulates fleets of ground robots that reach
+their goals among people and machines that move unpredictably, runs
+experiments, and shows trials in a replay page. It holds the SPF-EMPC planner
+and controller, a space-time planner, and baselines.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libspf-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -70,18 +70,20 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)  # static libraries
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libeigen3-dev (>= 3.4), libyaml-cpp-dev, libpng-dev, nlohmann-json3-dev (>= 3.11), libcli11-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake (>= 3.25), g++, spf")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "planner and simulator for robots among people (library)
- Headers, static libraries and CMake's find_package(spf) for programs that
- plan for, control or simulate fleets of ground robots, with examples.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and CMake's find_package(spf) for
+programs that plan for, control or simulate fleets of ground robots, with
+examples.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-spf)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+# Python's byte code is made when the package is installed, and removed with it.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/packaging/python/postinst ${PROJECT_SOURCE_DIR}/packaging/python/prerm)
 if(SPF_PYTHON_VERSION MATCHES "^([0-9]+)\\.([0-9]+)$")
   math(EXPR next "${CMAKE_MATCH_2} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= ${SPF_PYTHON_VERSION}), python3 (<< ${CMAKE_MATCH_1}.${next}), python3-numpy")
 endif()
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION "planner and simulator for robots among people (Python)
- The Python module spf: scenarios, campaigns, the simulated world step by
- step, and the parts of a robot as objects, with numpy.")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module spf: scenarios, campaigns, the simulated world
+step by step, and the parts of a robot as objects, with numpy.")
 include(CPack)

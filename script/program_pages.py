@@ -98,19 +98,22 @@ def completion(main, verbs):
         cases.append(f"    {verb})\n      options='{' '.join(options)}'\n      valued=' {' '.join(valued)} ' ;;")
     return f"""# bash completion for spf, made by script/program_pages.py of the program's own help
 _spf() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} options='' valued=''
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} options='' valued='' found=''
+  COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W '{' '.join([name for name, _ in lists['Subcommands']] + options_of(lists)[0])}' -- "$word")
-    return
+    found=$(compgen -W '{' '.join([name for name, _ in lists['Subcommands']] + options_of(lists)[0])}' -- "$word")
   fi
   case ${{COMP_WORDS[1]}} in
 {chr(10).join(cases)}
   esac
-  if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  if ((COMP_CWORD == 1)); then
+    :
+  elif [[ $word == -* ]]; then
+    found=$(compgen -W "$options" -- "$word")
   elif [[ $valued != *" $before "* || $before == --out || $before == --json || $before == --charts ]]; then
-    mapfile -t COMPREPLY < <(compgen -f -- "$word")
+    found=$(compgen -f -- "$word")
   fi
+  [[ -z $found ]] || mapfile -t COMPREPLY <<<"$found"
 }}
 complete -o filenames -F _spf spf
 """
