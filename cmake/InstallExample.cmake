@@ -1,4 +1,4 @@
-# cmake -D BUILD_DIR=... -D CONFIG=... -D SOURCE_DIR=... -D CXX_COMPILER=... -P InstallExample.cmake
+# cmake -D BUILD_DIR=... -D CONFIG=... -D SOURCE_DIR=... -D CXX_COMPILER=... -D CCACHE=... -P InstallExample.cmake
 # Installs the built library into an empty prefix, then configures, builds and runs the examples, which know it only by
 # find_package(spf). Each has to end well and to make its picture; script/example_pictures compares the pictures.
 set(work ${BUILD_DIR}/install_example)
@@ -16,6 +16,12 @@ run(${CMAKE_COMMAND} --install ${BUILD_DIR} --config "${CONFIG}" --component dev
 file(GLOB_RECURSE strays ${work}/prefix/*_test.* ${work}/prefix/include/spf/testing/*)
 if(strays)
   message(FATAL_ERROR "test code was installed: ${strays}")
+endif()
+if(CCACHE)  # as for the library itself
+  set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} ${CCACHE})
+  set(ENV{CCACHE_BASEDIR} ${SOURCE_DIR})
+  set(ENV{CCACHE_NOHASHDIR} 1)
+  set(ENV{CCACHE_SLOPPINESS} pch_defines,time_macros)
 endif()
 # Type None: the library is optimised, and a quick compiler counts more than quick examples.
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/examples -B ${work}/build -D CMAKE_PREFIX_PATH=${work}/prefix

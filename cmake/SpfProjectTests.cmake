@@ -31,7 +31,8 @@ if(Python3_FOUND)
 endif()
 spf_project_test(install_example ${CMAKE_COMMAND}
   -D BUILD_DIR=${PROJECT_BINARY_DIR} -D CONFIG=$<CONFIG> -D SOURCE_DIR=${PROJECT_SOURCE_DIR}
-  -D CXX_COMPILER=${CMAKE_CXX_COMPILER} -P ${CMAKE_CURRENT_LIST_DIR}/InstallExample.cmake)
+  -D CXX_COMPILER=${CMAKE_CXX_COMPILER} -D CCACHE=$<$<BOOL:${SPF_CCACHE}>:${SPF_CCACHE}>
+  -P ${CMAKE_CURRENT_LIST_DIR}/InstallExample.cmake)
 if(TARGET spf_python)
   spf_project_test(python_examples ${PROJECT_SOURCE_DIR}/script/example_pictures --python)
   set_tests_properties(python_examples PROPERTIES ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python;PYTHON=${Python_EXECUTABLE}")

@@ -18,7 +18,7 @@ noise: [walk]
 levels: [0.5, 1]
 tracking: [ideal]
 first: 10000
-trials: 5
+trials: 3
 )";
 
 }  // namespace
@@ -33,7 +33,7 @@ int main() {
 
   spf::Table table{{{"method", spf::Alignment::left}, {"level"}, {"success"}, {"95 %"}, {"time ratio [1]"}}};
   spf::LineChart chart;
-  chart.title = "Success under growing noise, 5 trials each, 95 % intervals";
+  chart.title = "Success under growing noise, 3 trials each, 95 % intervals";
   chart.x.label = "noise level [Sigma]";
   chart.y = {"success [1]", false, true, 0.0, 1.0};
   for (const std::string& method : plan.campaign.methods)
