@@ -1,18 +1,16 @@
 #include "config/parameter_text.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
+
+#include "config/number_text.hpp"
 
 namespace spf {
 
 std::string to_text(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
-  std::array<char, 32> buffer;
-  const std::to_chars_result result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
+  return shortest_text(value);
 }
 
 std::string to_text(int value) {

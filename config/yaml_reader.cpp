@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "config/closest_name.hpp"
+#include "config/number_text.hpp"
 #include "config/parameter_text.hpp"
 
 namespace spf {
@@ -55,16 +56,17 @@ std::optional<double> read_double(const ReadTarget& target, const char* unit, Ra
     target.refuse("must be a number" + in_unit(unit) + ", not NaN");
     return std::nullopt;
   } else {
-    const char* end = text->data() + text->size();
-    const auto [rest, error] = std::from_chars(text->data(), end, value);
+    const NumberRead number = read_number(*text);
+    value = number.value;
     const bool spelled_out =
-        text->find_first_of("iInN") != std::string_view::npos;  // from_chars knows "inf" and "nan"
-    if (error == std::errc::result_out_of_range) {
+        text->find_first_of("iInN") != std::string_view::npos;  // "inf" and "nan" would be read
+    if (number.error == std::errc::result_out_of_range) {
       target.refuse("is too large or too small for a number; it " + limit_sentence(range, unit));
       return std::nullopt;
     }
-    if (error != std::errc{} || rest != end || spelled_out) {
-      target.refuse(no_number(*text, error == std::errc{} ? rest : text->data(), kKind, unit));
+    if (number.error != std::errc{} || number.used != text->size() || spelled_out) {
+      const std::size_t good = number.error == std::errc{} ? number.used : 0;
+      target.refuse(no_number(*text, text->data() + good, kKind, unit));
       return std::nullopt;
     }
   }

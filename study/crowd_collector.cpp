@@ -7,6 +7,7 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "config/number_text.hpp"
 #include "config/parameter_text.hpp"
 
 namespace spf {
@@ -22,8 +23,14 @@ std::string shown(std::string_view text) {
   return std::string{text.substr(0, kLongestShown)} + (text.size() > kLongestShown ? "..." : "");
 }
 
-template <class Number>
-bool parsed(std::string_view text, Number& value, std::errc& error) {
+bool parsed(std::string_view text, double& value, std::errc& error) {
+  const NumberRead read = read_number(text);
+  value = read.value;
+  error = read.error;
+  return !text.empty() && read.used == text.size() && error != std::errc::invalid_argument;
+}
+
+bool parsed(std::string_view text, std::int64_t& value, std::errc& error) {
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   error = result.ec;
   return !text.empty() && result.ptr == text.data() + text.size() && result.ec != std::errc::invalid_argument;

@@ -1,11 +1,10 @@
 #include "study/crowd_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstdint>
 #include <vector>
 
+#include "config/number_text.hpp"
 #include "study/crowd_collector.hpp"
 #include "study/crowd_formats.hpp"
 #include "study/file_bytes.hpp"
@@ -61,10 +60,7 @@ std::shared_ptr<const sim::CrowdRecording> read_crowd_file(const std::string& pa
 std::string crowd_text(const std::vector<sim::CrowdSample>& samples) {
   std::string text = "t_s,agent_id,x_m,y_m\n";
   const auto add = [&text](double value, int decimals, char end) {
-    std::array<char, 64> digits;
-    const std::to_chars_result done = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                                    std::chars_format::fixed, decimals);
-    text.append(digits.data(), done.ptr).push_back(end);
+    text.append(fixed_text(value, decimals)).push_back(end);
   };
   for (const sim::CrowdSample& sample : samples) {
     add(sample.time, 2, ',');

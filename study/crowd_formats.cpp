@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "config/number_text.hpp"
 
 namespace spf {
 namespace {
@@ -265,10 +266,7 @@ class TrajnetLines : public CrowdFormat {
 std::unique_ptr<CrowdFormat> crowd_format_of(std::string_view first_line) {
   if (trimmed(first_line).starts_with('{')) return std::make_unique<TrajnetLines>();
   const std::vector<std::string_view> words = words_of(first_line, 1);
-  double number = 0.0;
-  const bool begins_with_number =
-      !words.empty() && std::from_chars(words[0].data(), words[0].data() + words[0].size(), number).ptr ==
-                            words[0].data() + words[0].size();
+  const bool begins_with_number = !words.empty() && read_number(words[0]).used == words[0].size();
   if (begins_with_number && words.size() > 1 && first_line.find_first_of(",;") == std::string_view::npos)
     return std::make_unique<NumberColumns>();
   return std::make_unique<NamedColumns>();
