@@ -98,8 +98,6 @@ function decodeRun(raw) {
   };
 }
 
-const run = decodeRun(JSON.parse(document.getElementById("replay-data").textContent));
-
 /** Value between two frames; `frame` may be fractional. */
 function sample(values, frame) {
   const low = Math.min(Math.floor(frame), values.length - 1);

@@ -32,17 +32,19 @@ function stepFrames(count) {
   setTime((frame + count) * run.interval);
 }
 
+let whenAtEnd = pause;  // a run that still grows goes on
 let lastTick = null;
 function tick(now) {
   if (!state.playing) return;
   if (lastTick !== null) setTime(state.time + Math.min((now - lastTick) / 1000, 0.25) * state.speed);
   lastTick = now;
-  if (state.time >= run.duration) pause(); else requestAnimationFrame(tick);
+  if (state.time >= run.duration) whenAtEnd();
+  if (state.playing) requestAnimationFrame(tick);
 }
 
 function play() {
-  if (state.playing || run.duration <= 0) return;
-  if (state.time >= run.duration) state.time = 0;
+  if (state.playing || (run.duration <= 0 && whenAtEnd === pause)) return;
+  if (state.time >= run.duration && whenAtEnd === pause) state.time = 0;
   state.playing = true;
   lastTick = null;
   requestAnimationFrame(tick);

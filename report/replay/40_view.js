@@ -69,6 +69,15 @@ function robotNear(px, py) {
 
 const pointers = new Map();
 let moved = 0;
+// A page whose scene can be changed takes over presses: grab(position) returns null or what follows the pointer, with
+// move(position), drop(position) and leave().
+let grab = () => null;
+let grabbed = null;
+
+function letGo() {
+  grabbed?.leave();
+  grabbed = null;
+}
 
 function pointerPosition(event) {
   const box = sceneCanvas.getBoundingClientRect();
@@ -84,6 +93,8 @@ sceneCanvas.addEventListener("pointerdown", (event) => {
   sceneCanvas.setPointerCapture(event.pointerId);
   pointers.set(event.pointerId, pointerPosition(event));
   moved = pointers.size === 1 ? 0 : Infinity;
+  letGo();
+  if (pointers.size === 1) grabbed = grab(pointerPosition(event));
 });
 
 sceneCanvas.addEventListener("pointermove", (event) => {
@@ -97,15 +108,22 @@ sceneCanvas.addEventListener("pointermove", (event) => {
     panBy(after.x - before.x, after.y - before.y);
   } else if (pointers.size === 1) {
     moved += Math.hypot(position.x - before.x, position.y - before.y);
-    if (moved > 4) panBy(position.x - before.x, position.y - before.y);
+    if (moved <= 4) return;
+    if (grabbed) grabbed.move(position); else panBy(position.x - before.x, position.y - before.y);
   }
 });
 
 sceneCanvas.addEventListener("pointerup", (event) => {
   const position = pointerPosition(event);
-  if (pointers.delete(event.pointerId) && moved <= 4) chooseRobot(robotNear(position.x, position.y));
+  if (!pointers.delete(event.pointerId)) return;
+  if (moved <= 4) chooseRobot(robotNear(position.x, position.y));
+  grabbed?.drop(position, moved > 4);
+  grabbed = null;
 });
-sceneCanvas.addEventListener("pointercancel", (event) => pointers.delete(event.pointerId));
+sceneCanvas.addEventListener("pointercancel", (event) => {
+  pointers.delete(event.pointerId);
+  letGo();
+});
 
 // The wheel scrolls the page as everywhere, until the scene has been clicked (or with Ctrl).
 sceneCanvas.addEventListener("wheel", (event) => {

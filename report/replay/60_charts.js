@@ -1,8 +1,6 @@
 // Charts of the chosen robot. They come drawn (report/replay_charts.cpp): a template for every robot, a picture for
 // every chart. Here they are shown, with a cursor at the present time and the present values beside the legend.
 
-const nowIn = (values) => values[Math.round(frameNow())];
-
 /** Present values of a chart's series, in the order of its legend. */
 const READINGS = {
   wheels: (robot) => robot.wheels.map((values) => `${formatted(nowIn(values), 2)} m/s`),
@@ -41,21 +39,4 @@ function paintCharts() {
     cursor.setAttribute("x", area.x.baseVal.value + share * area.width.baseVal.value - 0.7);
     reading(robot).forEach((text, i) => setText(values[i], text));
   }
-}
-
-/** Press and drag to move through time; `area` gives the left edge and the width [px] of the run's duration. */
-function scrubOn(element, area) {
-  const go = (event) => {
-    const { left, width } = area();
-    setTime(((event.clientX - left) / width) * run.duration);
-  };
-  element.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    pause();
-    element.setPointerCapture(event.pointerId);
-    go(event);
-  });
-  element.addEventListener("pointermove", (event) => {
-    if (element.hasPointerCapture(event.pointerId)) go(event);
-  });
 }

@@ -1,0 +1,3 @@
+// The run that this page holds.
+
+const run = decodeRun(JSON.parse(document.getElementById("replay-data").textContent));
