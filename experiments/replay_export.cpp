@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "report/replay_page.hpp"
 #include "report/table.hpp"
 #include "spf/field/probability_field.hpp"
 #include "spf/robot/drive.hpp"
@@ -370,18 +369,6 @@ ReplayData replay_data(const RunConfiguration& config, const FinishedTrial& tria
   std::stable_sort(data.events.begin(), data.events.end(),
                    [](const ReplayEvent& a, const ReplayEvent& b) { return a.time < b.time; });
   return data;
-}
-
-std::optional<ReplayPage> replay_page(const Cell& cell, const TrialRecord& record,
-                                      const std::function<double()>& clock,
-                                      const std::function<bool()>& stop) {
-  TrialOptions options;
-  options.record = true;
-  options.clock = clock;
-  options.progress = [&stop](double) { return !stop(); };
-  const FinishedTrial trial = run_trial(cell, record.key.trial, options);
-  if (trial.stopped) return std::nullopt;
-  return ReplayPage{render_replay(replay_data(cell.config, trial)), trial.record.digest != record.digest};
 }
 
 }  // namespace spf

@@ -15,6 +15,12 @@ class ContactMonitor {
  public:
   explicit ContactMonitor(const Scenario& scenario);
 
+  /// From now on with these static shapes.
+  void change_shapes(const Scenario& scenario) {
+    shapes_ = StaticShapes{scenario};
+    free_.assign(free_.size(), {});
+  }
+
   /// One tick, from `time` to time + dt [s]: the dynamic obstacles go from share_from to share_to of their
   /// step, the robots along their `motion`. Contacts found are appended to contacts(), by time within the
   /// tick.

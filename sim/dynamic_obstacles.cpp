@@ -21,6 +21,12 @@ DynamicObstacles::DynamicObstacles(const Scenario& scenario)
       walkers_{scenario},
       first_walker_{first_free_id(scenario)} {}
 
+void DynamicObstacles::place(int id, const Eigen::Vector2d& position_world) {
+  const auto index = static_cast<std::size_t>(std::max(id, 0));
+  if (index < discs_.now().size()) discs_.place(index, position_world);
+  if (id >= first_walker_) walkers_.place(index - static_cast<std::size_t>(first_walker_), position_world);
+}
+
 void DynamicObstacles::advance(double time, const std::vector<RobotTruth>& robots) {
   discs_.advance();
   dynamic_obstacles_.clear();

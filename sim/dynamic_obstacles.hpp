@@ -31,6 +31,14 @@ class DynamicObstacles {
   /// Begins the step at `time` [s], a multiple of kStep. People who react do so to the robots as they are.
   void advance(double time, const std::vector<RobotTruth>& robots = {});
 
+  /// As MovingObstacles::change_shapes and Walkers::change.
+  void change(const Scenario& scenario) {
+    discs_.change_shapes(scenario);
+    walkers_.change(scenario);
+  }
+  /// Puts the moving disc or person `id` elsewhere [m], from the next step on.
+  void place(int id, const Eigen::Vector2d& position_world);
+
   [[nodiscard]] const std::vector<DynamicObstacle>& all() const { return dynamic_obstacles_; }
 
  private:

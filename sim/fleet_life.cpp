@@ -11,7 +11,7 @@ constexpr double kTimeRounding = 1e-9;  // [s]
 
 FleetLife::FleetLife(const Scenario& scenario)
     : source_{scenario}, goal_pause_{scenario.simulation.trial.goal_pause} {
-  for (const FleetEvent& event : scenario.events) pending_.push_back({event, event.after_robot < 0});
+  for (const FleetEvent& event : scenario.events) add(event);
 }
 
 void FleetLife::reached_goal(double time, std::size_t robot, int reached,

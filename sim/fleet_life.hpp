@@ -21,6 +21,9 @@ class FleetLife {
   void pass_on(double time, const std::function<bool(const FleetOrder&)>& happens,
                std::vector<FleetOrder>& orders);
 
+  /// Adds what is to happen.
+  void add(const FleetEvent& event) { pending_.push_back({event, event.after_robot < 0}); }
+
   /// Whether more will happen for certain: its time is known.
   [[nodiscard]] bool goes_on() const;
   /// A goal is to come after the one that the robot has reached last.

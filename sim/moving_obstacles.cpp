@@ -88,6 +88,18 @@ MovingObstacles::MovingObstacles(const Scenario& scenario)
       now_{scenario.moving},
       next_{scenario.moving} {}
 
+void MovingObstacles::change_shapes(const Scenario& scenario) {
+  border_ = scenario.border;
+  boxes_ = scenario.boxes;
+  discs_ = scenario.discs;
+  walls_ = scenario.walls;
+  outlines_ = Outlines{scenario};
+}
+
+void MovingObstacles::place(std::size_t index, const Eigen::Vector2d& position) {
+  now_[index].position_world = next_[index].position_world = position;
+}
+
 void MovingObstacles::advance() {
   std::swap(now_, next_);
   const double velocity_sigma = std::sqrt(noise_.level * noise_.scale * kVelocityVariance);

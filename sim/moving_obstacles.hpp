@@ -21,6 +21,11 @@ class MovingObstacles {
   /// normals for disc 0, 1, 2, ...
   void advance();
 
+  /// From now on among these static shapes and this border.
+  void change_shapes(const Scenario& scenario);
+  /// Puts a disc elsewhere [m], where it goes on with its velocity.
+  void place(std::size_t index, const Eigen::Vector2d& position);
+
   /// At the start of the current step. In *white* the velocity is the nominal one.
   [[nodiscard]] const std::vector<ObstacleState>& now() const { return now_; }
   /// At its end.

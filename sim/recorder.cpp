@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace spf::sim {
 namespace {
@@ -71,6 +72,13 @@ Recorder::Recorder(const Scenario& scenario, const GridFrame& map_frame, const R
       cells_(scenario.robots.size()) {
   recording_->scenario = scenario;
   recording_->map_frame = map_frame;
+}
+
+std::shared_ptr<const Recording> Recorder::take_so_far() {
+  auto next = std::make_shared<Recording>();
+  next->scenario = recording_->scenario;
+  next->map_frame = recording_->map_frame;
+  return std::exchange(recording_, std::move(next));
 }
 
 void Recorder::frame(const TrialFrame& view) {

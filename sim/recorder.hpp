@@ -15,6 +15,9 @@ class Recorder : public TrialListener {
  public:
   Recorder(const Scenario& scenario, const GridFrame& map_frame, const RecordLimit& limit);
 
+  /// The scenario's static shapes are others from now on.
+  void change(const Scenario& scenario) { recording_->scenario = scenario; }
+
   void frame(const TrialFrame& view) override;
   void planned(double time, const RobotAgent& agent, double plan_ms) override;
   void stopped(double time, const RobotAgent& agent) override;
@@ -24,6 +27,8 @@ class Recorder : public TrialListener {
   void arrived(double time, int robot, const Eigen::Vector2d& position_world) override;
 
   [[nodiscard]] std::shared_ptr<const Recording> take() { return std::move(recording_); }
+  /// What has been recorded since the last call, with the scenario that it began with; goes on recording.
+  [[nodiscard]] std::shared_ptr<const Recording> take_so_far();
 
  private:
   void note_contact(const Contact& contact, RecordedEvent::Kind kind);

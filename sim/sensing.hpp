@@ -31,6 +31,9 @@ class Sensing {
  public:
   explicit Sensing(const Scenario& scenario);
 
+  /// From now on with these static shapes.
+  void change_shapes(const Scenario& scenario) { range_sensor_ = RangeSensor{scenario}; }
+
   /// The measured pose of a robot whose true pose is given. Call it once per robot and pose tick.
   [[nodiscard]] PoseMeasurement measure_pose(int robot, double time, const Pose2& true_pose_world);
 

@@ -1,44 +1,19 @@
 #include "sim/simulation.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <deque>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "sim/agent_meter.hpp"
+#include "sim/crew.hpp"
 #include "sim/fleet_order.hpp"
 #include "sim/radio.hpp"
 #include "sim/recorder.hpp"
 #include "sim/world.hpp"
 
 namespace spf::sim {
-namespace {
-
-/// What runs on the robots of one kind.
-struct Crew {
-  AgentParameters agent;
-  host::HostParameters host;
-};
-
-std::vector<Crew> crews_of(const Scenario& scenario, const std::vector<AgentParameters>& agents) {
-  const std::size_t kinds = std::max<std::size_t>(1, scenario.fleet.size());
-  if (agents.size() != 1 && agents.size() != kinds)
-    throw std::invalid_argument("parameters of " + std::to_string(agents.size()) + " kinds of robots for " +
-                                std::to_string(kinds));
-  std::vector<Crew> crews;
-  for (std::size_t kind = 0; kind < kinds; ++kind) {
-    AgentParameters agent = agents[agents.size() == 1 ? 0 : kind];
-    if (!scenario.fleet.empty()) agent.robot = scenario.fleet[kind];
-    agent = agent_parameters_for(scenario, std::move(agent));
-    host::refuse_contradictions(contradictions(scenario, agent));
-    crews.push_back({agent, host_parameters_for(scenario, agent)});
-  }
-  return crews;
-}
-
-}  // namespace
-
 struct Simulation::Implementation {
   /// What stands between the world and one robot.
   struct Desk {
@@ -58,6 +33,7 @@ struct Simulation::Implementation {
 
   // One tick, in the order of docs/protocol.md.
   void begin();
+  void begin_afresh(std::size_t robot);
   void hear();
   void observe();
   void think();
@@ -73,7 +49,7 @@ struct Simulation::Implementation {
   void place_ideally();
   void tell_frame();
   void tell_events();
-  [[nodiscard]] TrialResult result();
+  [[nodiscard]] TrialResult result() const;
 
   [[nodiscard]] double now() const { return world.time(); }
   [[nodiscard]] double clock() const { return options.clock ? options.clock() : 0.0; }
@@ -83,8 +59,10 @@ struct Simulation::Implementation {
 
   SimulationOptions options;
   World world;
-  OccupancyMap map;  // that robots begin with
+  OccupancyMap map;         // that robots begin with
+  std::vector<Crew> crews;  // by kind
   std::vector<host::RobotHost> robots;
+  std::vector<int> put_elsewhere;        // robots, until they have joined
   std::vector<Drive> drives;             // by robot
   std::vector<DriveInput> wheel_speeds;  // true; filled for listeners
   Radio radio;
@@ -93,6 +71,7 @@ struct Simulation::Implementation {
   std::vector<TrialListener*> listeners;  // the recorder among them
 
   std::vector<Desk> desks;
+  std::vector<std::uint32_t> begun;  // number of the first message, by robot
   std::size_t contacts_seen = 0;
   std::size_t hits_seen = 0;
   bool stopped_by_caller = false;
@@ -105,9 +84,9 @@ Simulation::Implementation::Implementation(const Scenario& scenario,
     : options{given_options},
       world{scenario},
       map{robot_map(scenario)},
+      crews{crews_of(scenario, agents)},
       radio{scenario},
       meter{scenario.robots.size()} {
-  const std::vector<Crew> crews = crews_of(scenario, agents);
   if (options.record) recorder = std::make_unique<Recorder>(scenario, map.frame(), options.record_limit);
   for (TrialListener* listener : {options.listener, static_cast<TrialListener*>(recorder.get())})
     if (listener != nullptr) listeners.push_back(listener);
@@ -125,17 +104,39 @@ Simulation::Implementation::Implementation(const Scenario& scenario,
     wheel_speeds.push_back(drives.back().standstill());
   }
   desks.resize(count);
+  begun.assign(count, 0);
   last_control_us.assign(count, 0.0);
 }
 
 void Simulation::Implementation::begin() {
   world.begin_tick();
   for (const FleetOrder& order : world.orders()) {
+    const auto put = std::find(put_elsewhere.begin(), put_elsewhere.end(), order.robot);
+    if (order.act == FleetAct::join && put != put_elsewhere.end()) {
+      begin_afresh(as_index(order.robot));
+      put_elsewhere.erase(put);
+    }
     obey(order, world, map, robots[as_index(order.robot)]);
     for (TrialListener* listener : listeners)
       listener->ordered(now(), order, world.positions()[as_index(order.robot)]);
   }
   if (world.step_due() && options.progress && !options.progress(now())) stopped_by_caller = true;
+}
+
+/// What a robot knew of itself does not hold where it was put: its computer starts as after it was switched
+/// off.
+void Simulation::Implementation::begin_afresh(std::size_t robot) {
+  const Scenario& scenario = world.scenario();
+  const Crew& crew = crews[scenario.fleet.empty() ? 0 : scenario.robots[robot].kind];
+  constexpr std::uint32_t kMessagesOfALife = 1'000'000;  // peers believe what has a higher number
+  begun[robot] += kMessagesOfALife;
+  host::RobotHost fresh{static_cast<int>(robot), crew.agent, crew.host,
+                        ideal() ? host::Motion::as_planned : host::Motion::by_wheels, begun[robot]};
+  fresh.planner().set_keep_candidates(options.record);
+  if (const std::optional<host::Goal>& goal = world.goal(static_cast<int>(robot)))
+    fresh.planner().set_goal(*goal);
+  robots[robot] = std::move(fresh);
+  desks[robot] = {};
 }
 
 void Simulation::Implementation::hear() {
@@ -304,7 +305,7 @@ void Simulation::Implementation::tell_frame() {
   for (TrialListener* listener : listeners) listener->frame(frame);
 }
 
-TrialResult Simulation::Implementation::result() {
+TrialResult Simulation::Implementation::result() const {
   TrialResult result = world.result();
   meter.finish(result);
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -314,7 +315,6 @@ TrialResult Simulation::Implementation::result() {
     result.robots[i].guard_held = guard->counts().held_time;
   }
   result.messages = radio.messages_sent();
-  if (recorder) result.recording = recorder->take();
   return result;
 }
 
@@ -329,19 +329,66 @@ Simulation::~Simulation() = default;
 TrialResult Simulation::run() {
   Implementation& self = *implementation_;
   const double started = self.clock();
-  while (!self.stopped_by_caller && !self.world.finished()) {
-    self.begin();
-    if (self.world.pose_due()) {
-      self.hear();
-      self.observe();
-      self.think();
-    }
-    if (self.world.step_due()) self.tell_frame();
-    self.end();
-  }
+  while (!finished()) tick();
   TrialResult result = self.result();
+  if (self.recorder) result.recording = self.recorder->take();
   result.wall_seconds = self.clock() - started;
   return result;
+}
+
+void Simulation::tick() {
+  Implementation& self = *implementation_;
+  self.begin();
+  if (self.world.pose_due()) {
+    self.hear();
+    self.observe();
+    self.think();
+  }
+  if (self.world.step_due()) self.tell_frame();
+  self.end();
+}
+
+bool Simulation::finished() const {
+  return implementation_->stopped_by_caller || implementation_->world.finished();
+}
+
+TrialResult Simulation::result() const {
+  return implementation_->result();
+}
+
+World& Simulation::world() {
+  return implementation_->world;
+}
+
+void Simulation::change(const Scenario& changed) {
+  Implementation& self = *implementation_;
+  self.world.change(changed);
+  if (self.recorder) self.recorder->change(changed);
+  self.map = robot_map(changed);
+  for (host::RobotHost& robot : self.robots) robot.planner().set_map(self.map);
+}
+
+void Simulation::put(int robot, const Pose2& pose_world) {
+  Implementation& self = *implementation_;
+  const std::optional<host::Goal> goal = self.world.goal(robot);
+  self.world.set_start(robot, pose_world);
+  self.put_elsewhere.push_back(robot);
+  self.world.tell({robot, FleetAct::leave, {}, 0});
+  self.world.tell({robot, FleetAct::join, {}, 0});
+  if (goal) self.world.tell({robot, FleetAct::goal, *goal, 0});
+}
+
+void Simulation::reconfigure(const std::vector<AgentParameters>& agents) {
+  Implementation& self = *implementation_;
+  const Scenario& scenario = self.world.scenario();
+  self.crews = crews_of(scenario, agents);
+  for (std::size_t i = 0; i < self.robots.size(); ++i)
+    self.robots[i].planner().reconfigure(
+        self.crews[scenario.fleet.empty() ? 0 : scenario.robots[i].kind].agent);
+}
+
+std::shared_ptr<const Recording> Simulation::take_recording() {
+  return implementation_->recorder->take_so_far();
 }
 
 }  // namespace spf::sim

@@ -19,6 +19,8 @@
 
 namespace spf::sim {
 
+class World;
+
 /// Calls job(i) once for every i of 0 ... count - 1, on any threads and in any order, and returns when all
 /// have ended.
 using ForEach = std::function<void(std::size_t count, const std::function<void(std::size_t)>& job)>;
@@ -51,6 +53,21 @@ class Simulation {
 
   /// Runs the trial. Call it once.
   [[nodiscard]] TrialResult run();
+
+  // Or tick by tick, by the caller, who may change the world meanwhile (World::tell, World::place_moving).
+  void tick();
+  [[nodiscard]] bool finished() const;
+  [[nodiscard]] TrialResult result() const;
+  [[nodiscard]] World& world();
+  /// World::change, whose static shapes robots are told where they know the map.
+  void change(const Scenario& changed);
+  /// Lifts a robot out and puts it back elsewhere when poses are due next and nobody is there, where its
+  /// computer begins afresh with the goal that it had.
+  void put(int robot, const Pose2& pose_world);
+  /// Robots of all kinds go on with these parameters. Throws std::invalid_argument when they cannot be used.
+  void reconfigure(const std::vector<AgentParameters>& agents);
+  /// What has been recorded since the last call; requires SimulationOptions::record.
+  [[nodiscard]] std::shared_ptr<const Recording> take_recording();
 
  private:
   struct Implementation;

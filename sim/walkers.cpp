@@ -33,16 +33,30 @@ double length_of_path(const PersonTask& task) {
 }  // namespace
 
 Walkers::Walkers(const Scenario& scenario) : shapes_{scenario} {
-  for (std::size_t i = 0; i < scenario.people.size(); ++i) {
-    Person person;
-    person.task = scenario.people[i];
-    person.body.position = person.task.waypoints.front();
-    person.next = 1;
-    person.done = person.task.waypoints.size() < 2;
-    if (person.task.anywhere) choose_start(scenario, i, person);
-    person.motion = {person.body.position, person.body.position};
-    people_.push_back(std::move(person));
-  }
+  for (std::size_t i = 0; i < scenario.people.size(); ++i) add(scenario, i);
+}
+
+void Walkers::add(const Scenario& scenario, std::size_t index) {
+  Person person;
+  person.task = scenario.people[index];
+  person.body.position = person.task.waypoints.front();
+  person.next = 1;
+  person.done = person.task.waypoints.size() < 2;
+  if (person.task.anywhere) choose_start(scenario, index, person);
+  person.motion = {person.body.position, person.body.position};
+  people_.push_back(std::move(person));
+}
+
+void Walkers::place(std::size_t person, const Eigen::Vector2d& position_world) {
+  if (person < people_.size()) people_[person].body.position = position_world;
+}
+
+void Walkers::change(const Scenario& scenario) {
+  shapes_ = StaticShapes{scenario};
+  for (std::size_t i = 0; i < people_.size(); ++i)
+    if (people_[i].task.waypoints.size() == scenario.people[i].waypoints.size())
+      people_[i].task.waypoints = scenario.people[i].waypoints;
+  for (std::size_t i = people_.size(); i < scenario.people.size(); ++i) add(scenario, i);
 }
 
 /// Anywhere on the path, but not beside a robot: then it is drawn again.

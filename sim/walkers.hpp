@@ -27,6 +27,11 @@ class Walkers {
   [[nodiscard]] std::size_t size() const { return people_.size(); }
   /// Begins the next step among these bodies.
   void advance(const std::vector<RoundBody>& others);
+  /// Puts somebody elsewhere [m], from where he or she walks on; nobody where there is no such person.
+  void place(std::size_t person, const Eigen::Vector2d& position_world);
+  /// From now on among these static shapes, on the ways of `scenario` with as many waypoints as before, and
+  /// with the people that it has more than there are.
+  void change(const Scenario& scenario);
   /// Over the current step; at the beginning where everybody starts.
   [[nodiscard]] const Motion& motion(std::size_t person) const { return people_[person].motion; }
   [[nodiscard]] double radius(std::size_t person) const { return people_[person].task.radius; }
@@ -40,6 +45,7 @@ class Walkers {
     bool backwards = false;
     bool done = false;
   };
+  void add(const Scenario& scenario, std::size_t index);
   void choose_start(const Scenario& scenario, std::size_t index, Person& person) const;
   void pass_waypoint(Person& person) const;
   void follow_path(Person& person, double distance) const;

@@ -54,6 +54,17 @@ World::World(const Scenario& scenario)
   grid_.assign(positions_);
 }
 
+void World::change(const Scenario& changed) {
+  usable(changed);
+  if (changed.robots.size() != scenario_.robots.size() || changed.moving.size() != scenario_.moving.size() ||
+      changed.people.size() < scenario_.people.size())
+    throw std::invalid_argument{"robots, moving discs and people of a running trial cannot be taken away"};
+  dynamic_obstacles_.change(changed);
+  sensing_.change_shapes(changed);
+  monitor_.change_shapes(changed);
+  scenario_ = changed;
+}
+
 /// Whoever joins waits until nobody is at its start.
 bool World::possible(const FleetOrder& order) const {
   if (order.act != FleetAct::join) return true;

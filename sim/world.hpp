@@ -53,6 +53,21 @@ class World {
   /// Sets the robot's pose and velocity at the end of the tick (TrackingMode::ideal).
   void place(int robot, const Pose2& pose_world, const Eigen::Vector2d& velocity_world);
 
+  // What somebody may change while it runs, between two ticks: a trial that was changed is no trial of its
+  // scenario.
+  /// Passed on like an event of the scenario, when poses are due next.
+  void tell(const FleetOrder& order) { life_.events.add({order, time()}); }
+  /// Takes over static shapes, the ways of people, further people, and where robots join. Throws
+  /// std::invalid_argument, with all reasons, when the changed scenario cannot be used or has other robots;
+  /// nothing is then changed.
+  void change(const Scenario& changed);
+  /// Where a robot that has left joins.
+  void set_start(int robot, const Pose2& pose_world) { scenario_.robots[as_index(robot)].start = pose_world; }
+  /// Puts a moving disc or a person with waypoints elsewhere [m], by the id that detections have.
+  void place_moving(int id, const Eigen::Vector2d& position_world) {
+    dynamic_obstacles_.place(id, position_world);
+  }
+
   /// True when a contact ends the trial, all robots have arrived or are wrecks, or time is up.
   [[nodiscard]] bool finished() const;
   /// The result so far, without what only a host of agents knows (plans, messages, timings).
