@@ -71,12 +71,13 @@ Engine::Engine(const std::string& scene, std::function<double()> clock) {
 }
 
 std::string Engine::advance(double until) {
+  bool frame = false;  // what was recorded without one waits for the next
   while (simulation_->world().time() < until) {
+    frame = frame || simulation_->world().step_due();
     simulation_->tick();
     if (!result_ && simulation_->finished()) result_ = simulation_->result();
   }
   FinishedTrial part;
-  part.recording = simulation_->take_recording();
   const sim::TrialResult now = result_ ? *result_ : simulation_->result();
   part.record.key = key_of(config_, trial_);
   part.record.outcome = now.outcome;
@@ -86,7 +87,8 @@ std::string Engine::advance(double until) {
   if (result_) told["outcome"] = enum_name(now.outcome);
   if (result_) told["ended"] = now.sim_seconds;
   std::string text = told.dump();
-  if (part.recording->frames.empty()) return text;
+  if (!frame) return text;
+  part.recording = simulation_->take_recording();
   text.back() = ',';
   return text + "\"run\":" + replay_json(replay_data(config_, part)) + "}";
 }

@@ -56,6 +56,13 @@ const checks = {
     assert.equal(run.map.boxes.length, told.map.boxes.length + 1);
     assert.ok(Math.abs(run.robots[0].x[0] - 9000) < 1000 && Math.abs(run.robots[0].y[0] + 9000) < 1000);
   },
+  "no plan and no goal is lost between two frames"() {
+    begin({ scenario: { family: "t2" } });
+    ask("spf_advance", 0.42);
+    change({ do: "goal", robot: 0, at: [9, -9] });
+    const parts = [0.44, 0.46, 0.48, 0.52].map((time) => ask("spf_advance", time).run).filter(Boolean);
+    assert.deepEqual(parts.flatMap((run) => run.robots[0].goals ?? []).map((goal) => goal.at), [[9000, -9000]]);
+  },
   "what cannot be is refused, and the scene goes on"() {
     begin({ scenario: { family: "t2" } });
     assert.match(change({ do: "goal", robot: 99, at: [0, 0] }).error, /robot = 99, of which there are/);
