@@ -19,6 +19,10 @@ class HidingVisitor {
   void operator()(const char* name, Rest&&... rest) {
     if (!hides(name)) visit_(name, rest...);
   }
+  template <class... Rest>
+  void values(const char* name, Rest&&... rest) {
+    if (!hides(name)) visit_.values(name, rest...);
+  }
   template <class Nested>
   void group(const char* name, Nested& nested) {
     if (!hides(name)) visit_.group(name, nested);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "config/contradiction_report.hpp"
+#include "config/footprint_reader.hpp"
 #include "config/removed_keys.hpp"
 #include "config/renamed_keys.hpp"
 #include "config/yaml_reader.hpp"
@@ -22,6 +23,7 @@ RobotFile read_document(YamlNode root, const MethodTable& methods, InputProblems
   const std::vector<std::string> keys = keys_of(head);
   FieldReader reader{root, "", keys, problems};
   RobotFile::visit_head(head, reader);
+  settle_footprint(root.find("robot"), "robot", head.robot, problems);
   RobotFile file = default_robot_file(head.method, head.robot);
   RobotFile::visit_parameters(file, reader);
   reader.finish();

@@ -58,6 +58,24 @@ TEST(RobotFile, RefusesWithTheMessagesOfTheProgram) {
   EXPECT_NE(problems("- 1\n"), "");
 }
 
+TEST(RobotFile, ReadsTheOutlineAndSettlesItsRadius) {
+  const RobotFile file = robot_file_from_text("robot: {length: 0.8, width: 0.6}\n", "robot.yaml");
+  EXPECT_NEAR(file.robot.radius, 0.5, 1e-12);
+  EXPECT_NEAR(file.agent.robot.radius, 0.5, 1e-12);
+  EXPECT_NEAR(robot_file_from_text(to_yaml_text(file), "again.yaml").robot.radius, 0.5, 1e-12);
+  const RobotFile corners = robot_file_from_text(
+      "robot: {footprint: [[0.4, 0.3], [-0.4, 0.3], [-0.4, -0.3], [0.4, -0.3]]}\n", "r.yaml");
+  EXPECT_NEAR(corners.robot.radius, 0.5, 1e-12);
+  EXPECT_EQ(
+      problems("robot: {length: 0.8, width: 0.6, radius: 0.3}\n"),
+      "robot.yaml:1:42: robot.radius = 0.3 must be left out, or be 0.5 m: so far are the robot's corners "
+      "from its centre");
+  EXPECT_EQ(problems("robot: {length: 0.8}\n"),
+            "robot.yaml:1:17: robot.width = 0 [m] must be above 0 where length is");
+  EXPECT_EQ(problems("robot: {footprint: [[1, 0], [0, 1]]}\n"),
+            "robot.yaml:1:20: robot.footprint has 2 corners; it needs 3 to 16");
+}
+
 TEST(RobotFile, RefusesSettingsThatContradictEachOther) {
   EXPECT_EQ(problems("agent:\n  team: {plan_period: 0.6}\n"),
             "robot.yaml:2:23: agent.team.plan_period = 0.6 s is longer than host.plan_silence = 0.5 s: the "

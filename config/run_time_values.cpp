@@ -34,6 +34,8 @@ class RunTimeVisitor {
     if constexpr (std::is_enum_v<Choice>)
       if (const auto own_name = run_time_name_of(key)) field_.choice(*own_name, key, value, what);
   }
+  template <class... Rest>
+  void values(const char* /*name*/, Rest&&... /*rest*/) {}
   template <class Nested>
   void group(const char* name, Nested& nested) {
     const std::string outer = std::exchange(prefix_, prefix_ + name + ".");

@@ -170,7 +170,9 @@ class FieldReader {
   void read_values(const char* name, std::vector<Value>& values, Read read) {
     const YamlNode* node = take_list(name);
     if (node == nullptr) return;
-    values.assign(node->items.size(), Value{});
+    Value blank{};
+    if constexpr (std::is_same_v<Value, Eigen::Vector2d>) blank.setZero();
+    values.assign(node->items.size(), blank);
     for (std::size_t i = 0; i < values.size(); ++i)
       read({node->items[i], prefix_ + name + "[" + std::to_string(i) + "]", problems_}, values[i]);
   }

@@ -12,6 +12,7 @@
 #include "report/table.hpp"
 #include "spf/field/probability_field.hpp"
 #include "spf/robot/drive.hpp"
+#include "spf/robot/footprint.hpp"
 
 namespace spf {
 namespace {
@@ -253,6 +254,8 @@ void describe_robots(ReplayData& data, const sim::Recording& recording) {
     robot.id = static_cast<int>(i);
     const RobotParameters& parameters = scenario.robot_of(i);
     robot.radius = parameters.radius;
+    const Footprint outline{parameters};
+    for (const Eigen::Vector2d& corner : outline.corners()) robot.corners.push_back(point(corner));
     robot.goal = point(scenario.robots[i].goal_world);
     robot.wheels = static_cast<std::size_t>(Drive{parameters}.rims());
     robot.wheel_speed_limit = parameters.max_wheel_speed;

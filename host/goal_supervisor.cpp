@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "spf/math/angles.hpp"
+#include "spf/robot/footprint.hpp"
 
 namespace spf::host {
 namespace {
@@ -70,7 +71,7 @@ GoalFacts goal_facts(const PlannerHost& planner, const Localiser* localiser, dou
 }
 
 void GoalSupervisor::reconfigure(const AgentParameters& agent, const HostParameters& host) {
-  radius_ = agent.robot.radius;
+  radius_ = Footprint{agent.robot}.inscribed_radius();
   tolerance_ = agent.team.goal_tolerance;
   heading_tolerance_ = host.goal_heading_tolerance;
 }

@@ -19,7 +19,7 @@ struct GuardParameters {
           "left in front of the robot when it stops before something");
     visit("own_radius", self.own_radius, kMetresBySize, Range{0.0, 5.0},
           "returns nearer to the robot's centre are parts of itself; keep it below the radius by the "
-          "scanner's noise");
+          "scanner's noise (a robot with corners goes by its outline)");
     visit("fastest_approach", self.fastest_approach, "m/s", Range{0.0, 20.0},
           "what comes towards the robot no faster than this is stopped for while it comes; 0: all counts as "
           "standing");

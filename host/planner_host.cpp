@@ -47,7 +47,7 @@ ObservationVerdict time_verdict(double observed, double now, double stale_time, 
 PlannerHost::PlannerHost(int robot_id, const AgentParameters& agent, const HostParameters& host,
                          std::uint32_t first_sequence)
     : robot_id_{robot_id},
-      agent_parameters_{validated(agent)},
+      agent_parameters_{settled(validated(agent))},
       host_{validated(host)},
       watchdog_{host_, agent_parameters_.team.stale_time},
       peer_watch_{robot_id, host_.peer_clock_error},

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "host/scan_check.hpp"
+#include "host/swept_arc.hpp"
+#include "host/swept_outline.hpp"
 #include "spf/math/angles.hpp"
 #include "spf/math/plane.hpp"
 
@@ -14,6 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCreep = 0.01;         // [1] of max_speed: slower is no motion
 constexpr double kSameThing = 1.0 / 3;  // [1] of the radius: returns of the same thing are no farther apart
 constexpr double kNoise = 1.0 / 6;      // [1] of the radius: smaller differences of ranges may be noise
+constexpr double kOwn = 1.0 / 3;        // [1] of the inscribed radius: parts of the robot lie so deep in it
 constexpr int kNeighbours = 3;          // to either side that smooth a range
 constexpr double kApart = 0.08;         // [s] between two scans that are compared
 constexpr double kVeerTime = 0.1;       // [s] over which the direction of the commands is smoothed
@@ -101,7 +104,8 @@ const char* to_string(GuardAction action) {
 
 ScanGuard::ScanGuard(const GuardParameters& parameters, const AgentParameters& agent, double clock_error)
     : parameters_{validated(parameters)},
-      robot_{validated(agent).robot},
+      robot_{with_radius_of_footprint(validated(agent).robot)},
+      footprint_{robot_},
       control_period_{agent.tracker.control_period},
       reaction_time_{control_period_ + agent.robot.motor_lag},
       stale_time_{agent.team.stale_time},
@@ -161,8 +165,10 @@ void ScanGuard::collect(const RangeScan& scan, const Pose2& sensor_in_body, cons
     if (range > farthest) return;
     const double angle = scan.angle_min + scan.angle_increment * static_cast<double>(beam);
     const Eigen::Vector2d position = sensor.point(range * Eigen::Vector2d{std::cos(angle), std::sin(angle)});
-    const double distance = position.norm();
-    if (distance >= parameters_.own_radius && distance <= reach_) kept.push_back(robot.point(position));
+    const bool own = footprint_.is_disc()
+                         ? position.norm() < parameters_.own_radius
+                         : footprint_.distance_to(position) < -kOwn * footprint_.inscribed_radius();
+    if (!own && position.norm() <= reach_) kept.push_back(robot.point(position));
   };
   for (std::size_t beam = 0; beam < scan.ranges.size(); ++beam) {
     const double agreed = readings.agreed(beam);
@@ -191,7 +197,7 @@ void ScanGuard::confirm(Sweep& sweep, const Sweep& before) const {
 
 /// Along which the command leads: it turns with the body, and as the commands have veered lately, no harder
 /// than the robot can.
-SweptArc ScanGuard::arc_of(double now, const Eigen::Vector3d& twist_body) {
+ScanGuard::Course ScanGuard::course_of(double now, const Eigen::Vector3d& twist_body) {
   const double speed = twist_body.head<2>().norm();
   const double direction = std::atan2(twist_body.y(), twist_body.x());
   const double elapsed = now - judged_time_;
@@ -207,7 +213,7 @@ SweptArc ScanGuard::arc_of(double now, const Eigen::Vector3d& twist_body) {
   const double hardest = robot_.max_acceleration / speed;
   const double turning = std::clamp(twist_body.z() + veering_, -hardest, hardest);
   const Eigen::Vector2d ahead = setting_out(twist_body.head<2>() / speed);
-  return {Placement{motion_.here()}.direction(ahead), turning / speed, robot_.radius};
+  return {Placement{motion_.here()}.direction(ahead), turning / speed};
 }
 
 /// A robot under way sets out as it moves, which is a little behind what it is told.
@@ -219,20 +225,46 @@ Eigen::Vector2d ScanGuard::setting_out(const Eigen::Vector2d& commanded) const {
   return follows ? Eigen::Vector2d{moves / speed} : commanded;
 }
 
-double ScanGuard::free_distance(const Sweep& sweep, const SweptArc& arc) const {
-  const Eigen::Vector2d here = motion_.here().position_world;
+double ScanGuard::free_distance(const Sweep& sweep, const Course& course) const {
+  const Pose2 here = motion_.here();
+  const SweptArc disc{course.direction, course.curvature, robot_.radius};
   double distance = kInfinity;
-  for (const Eigen::Vector2d& point : sweep.seen)
-    distance = std::min(distance, arc.distance_to(point - here));
+  if (footprint_.is_disc()) {
+    for (const Eigen::Vector2d& point : sweep.seen)
+      distance = std::min(distance, disc.distance_to(point - here.position_world));
+    return distance;
+  }
+  const SweptOutline outline{footprint_, here.heading, course.direction, course.curvature};
+  for (const Eigen::Vector2d& point : sweep.seen) {
+    const Eigen::Vector2d offset = point - here.position_world;
+    // What the disc around the outline meets no sooner, the outline does not, but for what is within it.
+    const bool within = offset.squaredNorm() <= robot_.radius * robot_.radius;
+    if (within || disc.distance_to(offset) < distance)
+      distance = std::min(distance, outline.distance_to(offset));
+  }
   return distance;
+}
+
+/// On the spot, so fast [rad/s], until it has stopped turning.
+bool ScanGuard::may_turn(double yaw_rate) const {
+  if (footprint_.is_disc() || yaw_rate == 0.0) return true;
+  const Pose2 here = motion_.here();
+  const SweptOutline outline{footprint_, here.heading, Eigen::Vector2d::UnitX(), 0.0};
+  const double rate = std::abs(yaw_rate);
+  const double needed = rate * reaction_time_ + 0.5 * rate * rate / robot_.max_yaw_acceleration +
+                        parameters_.margin / robot_.radius;
+  const auto free = [&](const Eigen::Vector2d& point) {
+    return outline.turn_to(point - here.position_world, yaw_rate > 0.0) >= needed;
+  };
+  return std::all_of(sweep(0).seen.begin(), sweep(0).seen.end(), free);
 }
 
 /// The free distance, and how fast what ends it came nearer over the last scans; what appeared at once is not
 /// known to move. Differences that may be noise count for the nearer, so that it does not creep on by luck,
 /// and a robot that `stood` waits for two scans without what it stood before.
-GuardVerdict ScanGuard::look_along(const SweptArc& arc, bool stood) const {
+GuardVerdict ScanGuard::look_along(const Course& course, bool stood) const {
   GuardVerdict seen;
-  const double newest = seen.free_distance = free_distance(sweep(0), arc);
+  const double newest = seen.free_distance = free_distance(sweep(0), course);
   if (std::isinf(newest) && !stood) return seen;
   const double noise = kNoise * robot_.radius;
   double slowest = kInfinity;
@@ -240,7 +272,7 @@ GuardVerdict ScanGuard::look_along(const SweptArc& arc, bool stood) const {
   for (std::size_t ago = 1; ago < kSweeps; ++ago) {
     const double elapsed = sweep(0).time - sweep(ago).time;
     if (!(elapsed <= 2.0 * stale_time_)) break;
-    const double before = free_distance(sweep(ago), arc);
+    const double before = free_distance(sweep(ago), course);
     change = before - newest;
     slowest = std::min(slowest, change / elapsed);
     if (std::abs(change) < noise || (stood && ago == 1))
@@ -285,7 +317,7 @@ bool ScanGuard::must_brake_first(const Eigen::Vector2d& command) const {
   constexpr double kAtOnce = 1.5;  // [1] of the reaction time: turned off by so much it as good as goes there
   const double aside = std::abs(cross(moves, command)) / speed;
   if (aside <= kAtOnce * reaction_time_ * robot_.max_acceleration) return false;
-  const SweptArc straight{Placement{motion_.here()}.direction(moves / speed), 0.0, robot_.radius};
+  const Course straight{Placement{motion_.here()}.direction(moves / speed), 0.0};
   return free_distance(sweep(0), straight) < parameters_.margin + stopping_distance(speed, 0.0, 0.0);
 }
 
@@ -293,15 +325,24 @@ const GuardVerdict& ScanGuard::judge(double now, const Eigen::Vector3d& twist_bo
   const bool stood = verdict_.action == GuardAction::stops;
   verdict_ = {};
   const double speed = twist_body.head<2>().norm();
-  if (!sees(now) || !(speed > kCreep * robot_.max_speed)) return verdict_;
-  const SweptArc arc = arc_of(now, twist_body);
-  verdict_ = look_along(arc, stood);
+  if (!sees(now)) return verdict_;
+  const bool turns = may_turn(twist_body.z());
+  if (!(speed > kCreep * robot_.max_speed)) {
+    verdict_.may_turn = turns;
+    verdict_.action = turns ? GuardAction::none : GuardAction::stops;
+    if (!turns) count(now);
+    return verdict_;
+  }
+  const Course course = course_of(now, twist_body);
+  verdict_ = look_along(course, stood);
+  verdict_.may_turn = turns;
   if (std::isfinite(verdict_.free_distance)) {
     // Having stopped, it waits for a distance worth going.
     const double margin = parameters_.margin + (stood ? kNoise * robot_.radius : 0.0);
     const double room =
         verdict_.free_distance - margin - verdict_.closing_speed * std::max(0.0, scan_age(now));
-    verdict_.scale = admissible_speed(room, speed, arc.curvature(), verdict_.closing_speed) / speed;
+    const double curvature = SweptArc{course.direction, course.curvature, robot_.radius}.curvature();
+    verdict_.scale = admissible_speed(room, speed, curvature, verdict_.closing_speed) / speed;
   }
   if (verdict_.scale >= 1.0 && !must_brake_first(twist_body.head<2>())) return verdict_;
   const bool stops = verdict_.scale * speed <= kCreep * robot_.max_speed ||
@@ -322,10 +363,12 @@ void ScanGuard::count(double now) {
 /// The body turns as fast as keeps it on its arc while it brakes; when it stands, as it is told.
 Eigen::Vector3d ScanGuard::allowed(const Eigen::Vector3d& twist_body) const {
   if (verdict_.action == GuardAction::none) return twist_body;
+  if (!(twist_body.head<2>().norm() > kCreep * robot_.max_speed))
+    return {twist_body.x(), twist_body.y(), 0.0};
   const double moves = motion_.twist_body().head<2>().norm();
   const bool stands = verdict_.action == GuardAction::stops && moves <= kCreep * robot_.max_speed;
   const double share = std::min(1.0, moves / twist_body.head<2>().norm());
-  const double turning = stands ? 1.0 : std::max(verdict_.scale, share);
+  const double turning = stands ? (verdict_.may_turn ? 1.0 : 0.0) : std::max(verdict_.scale, share);
   return {verdict_.scale * twist_body.x(), verdict_.scale * twist_body.y(), turning * twist_body.z()};
 }
 

@@ -8,7 +8,9 @@
 // through a door that it fits, turn on the spot, and move away from what it touches.
 //
 // A return counts when one of its two neighbours has about its range, or something was there in the scan
-// before. Returns nearer to the centre than GuardParameters::own_radius are parts of the robot. It knows no
+// before. Returns nearer to the centre than GuardParameters::own_radius are parts of the robot; of one with
+// corners those are that lie well within its outline, and its outline is swept instead of the disc around it,
+// also where it turns on the spot. It knows no
 // pose: between scans the robot moves as its wheels do. Frame: body (x forward, y left); times are the host's
 // [s].
 #pragma once
@@ -23,7 +25,7 @@
 #include "host/dead_reckoning.hpp"
 #include "host/guard_parameters.hpp"
 #include "host/step_clock.hpp"
-#include "host/swept_arc.hpp"
+#include "spf/robot/footprint.hpp"
 #include "spf/team/agent_parameters.hpp"
 #include "spf/world/observation.hpp"
 
@@ -38,6 +40,7 @@ struct GuardVerdict {
   double free_distance =
       std::numeric_limits<double>::infinity();  ///< [m] as commanded, until the robot touches
   double closing_speed = 0.0;                   ///< [m/s] of what is there
+  bool may_turn = true;                         ///< on the spot: corners meet nothing
 };
 
 struct GuardCounts {
@@ -86,10 +89,16 @@ class ScanGuard {
   Sweep& next_sweep();
   void collect(const RangeScan& scan, const Pose2& sensor_in_body, const Pose2& body, Sweep& into) const;
   void confirm(Sweep& sweep, const Sweep& before) const;
-  [[nodiscard]] SweptArc arc_of(double now, const Eigen::Vector3d& twist_body);
+  /// Along which the robot goes, in the frame of the dead reckoning.
+  struct Course {
+    Eigen::Vector2d direction;  // unit vector
+    double curvature;           // [1/m] positive to the left
+  };
+  [[nodiscard]] bool may_turn(double yaw_rate) const;
+  [[nodiscard]] Course course_of(double now, const Eigen::Vector3d& twist_body);
   [[nodiscard]] Eigen::Vector2d setting_out(const Eigen::Vector2d& commanded) const;
-  [[nodiscard]] double free_distance(const Sweep& sweep, const SweptArc& arc) const;
-  [[nodiscard]] GuardVerdict look_along(const SweptArc& arc, bool stood) const;
+  [[nodiscard]] double free_distance(const Sweep& sweep, const Course& course) const;
+  [[nodiscard]] GuardVerdict look_along(const Course& course, bool stood) const;
   [[nodiscard]] double stopping_distance(double speed, double curvature, double closing) const;
   [[nodiscard]] double admissible_speed(double room, double speed, double curvature, double closing) const;
   [[nodiscard]] bool must_brake_first(const Eigen::Vector2d& command) const;
@@ -97,6 +106,7 @@ class ScanGuard {
 
   GuardParameters parameters_;
   RobotParameters robot_;
+  Footprint footprint_;
   double control_period_;  // [s]
   double reaction_time_;   // [s] from a return that is known to wheels that brake
   double stale_time_;      // [s]

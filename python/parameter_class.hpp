@@ -12,6 +12,7 @@
 #include "config/closest_name.hpp"
 #include "config/parameter_table.hpp"
 #include "config/yaml_reader.hpp"
+#include "python/bind.hpp"
 #include "python/values.hpp"
 
 namespace spf::python {
@@ -19,6 +20,8 @@ namespace spf::python {
 /// The value of a field, if it may be one. Throws by refuse(), naming key, value and limit.
 void assign_number(py::handle from, const std::string& key, const char* unit, Range range, double& value);
 void assign_number(py::handle from, const std::string& key, const char* unit, Range range, int& value);
+void assign_points(py::handle from, const std::string& key, const char* unit, Range range,
+                   std::vector<Eigen::Vector2d>& points);
 void assign_choice(py::handle from, const std::string& key, bool& value);
 /// Index of a name.
 [[nodiscard]] std::size_t name_index(py::handle from, const std::string& key,
@@ -69,6 +72,20 @@ class PropertyMaker {
         name, [offset](const T& self) { return to_python(member<Choice>(self, offset)); },
         [offset, key](T& self, const py::object& from) {
           assign_choice(from, key, member<Choice>(self, offset));
+        },
+        text.c_str());
+    names_.emplace_back(name);
+  }
+  void values(const char* name, const std::vector<Eigen::Vector2d>& points, const char* unit, Range range,
+              const char* what) {
+    const std::ptrdiff_t offset = offset_of(points);
+    const std::string key = type_name_ + "." + name;
+    const std::string text = std::string{what} + "; points of two numbers [" + unit + "], " + to_text(range);
+    type_.def_property(
+        name,
+        [offset](const T& self) { return to_array(member<std::vector<Eigen::Vector2d>>(self, offset)); },
+        [offset, key, unit = std::string{unit}, range](T& self, const py::object& from) {
+          assign_points(from, key, unit.c_str(), range, member<std::vector<Eigen::Vector2d>>(self, offset));
         },
         text.c_str());
     names_.emplace_back(name);

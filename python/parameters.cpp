@@ -2,6 +2,7 @@
 
 #include "experiments/parameter_page.hpp"
 #include "python/parameter_class.hpp"
+#include "spf/robot/footprint.hpp"
 #include "spf/team/agent_parameters.hpp"
 
 namespace spf::python {
@@ -49,6 +50,24 @@ void assign_number(py::handle from, const std::string& key, const char* unit, Ra
   PyErr_Clear();
   if (!range.contains(number)) refuse(key, from, limit_sentence(range, unit));
   value = static_cast<int>(number);
+}
+
+void assign_points(py::handle from, const std::string& key, const char* unit, Range range,
+                   std::vector<Eigen::Vector2d>& points) {
+  if (py::isinstance<py::sequence>(from) && py::len(from) == 0) {
+    points.clear();
+    return;
+  }
+  const Numbers numbers = points_from(from, key.c_str());
+  if (numbers.ndim() > 2 || numbers.size() > 2 * static_cast<py::ssize_t>(Footprint::kMostCorners))
+    refuse(key, from, "must be at most " + std::to_string(Footprint::kMostCorners) + " points");
+  std::vector<Eigen::Vector2d> found;
+  for (py::ssize_t i = 0; i + 1 < numbers.size(); i += 2) {
+    found.emplace_back(numbers.data()[i], numbers.data()[i + 1]);
+    for (const double coordinate : {found.back().x(), found.back().y()})
+      if (!range.contains(coordinate)) refuse(key, from, limit_sentence(range, unit));
+  }
+  points = std::move(found);
 }
 
 void assign_choice(py::handle from, const std::string& key, bool& value) {

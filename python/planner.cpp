@@ -6,6 +6,7 @@
 
 #include "python/map.hpp"
 #include "spf/planning/contact_risk.hpp"
+#include "spf/team/guide_policy.hpp"
 #include "spf/team/method_table.hpp"
 
 namespace spf::python {
@@ -288,9 +289,7 @@ class StandalonePlanner {
     request.world.tracks = &tracks;
     request.world.peers = &nobody;
     PlanResult result;
-    CostToGo guide = planner_->passes_narrow_gaps()
-                         ? CostToGo{agent_.guide, agent_.robot.radius, agent_.space_time.static_margin}
-                         : CostToGo{agent_.guide, agent_.robot.radius};
+    CostToGo guide = make_guide(agent_, GuideNeeds::of(*planner_));
     guide.update(map, request.goal_world, request.head.position_world);
     request.guide = &guide;
     request.goal_cut_off = guide.outcome() == CostToGoOutcome::unreachable;

@@ -56,6 +56,11 @@ class Drawing {
         "\" transform=\"translate(" + px(x(e.center.x)) + " " + px(y(e.center.y)) + ") rotate(" +
         px(degrees) + ")\" " + style + "/>");
   }
+  void polygon(const std::vector<ReplayPoint>& corners, const std::string& style) {
+    std::string list;
+    for (const ReplayPoint& corner : corners) list += px(x(corner.x)) + "," + px(y(corner.y)) + " ";
+    add("<polygon points=\"" + list + "\" " + style + "/>");
+  }
   void polyline(const std::vector<ReplayPoint>& points, const std::string& style) {
     std::string list;
     for (const ReplayPoint& p : points) {
@@ -135,6 +140,14 @@ std::vector<ReplayPoint> plan_ahead(const ReplayRobot& robot, double time) {
   return ahead;
 }
 
+std::vector<ReplayPoint> placed(std::vector<ReplayPoint> corners, const ReplayPose& pose) {
+  const double cosine = std::cos(pose.heading);
+  const double sine = std::sin(pose.heading);
+  for (ReplayPoint& corner : corners)
+    corner = {pose.x + cosine * corner.x - sine * corner.y, pose.y + sine * corner.x + cosine * corner.y};
+  return corners;
+}
+
 void draw_robot(Drawing& drawing, const ReplayRobot& robot, int index, std::size_t frame, double time,
                 const FrameSvgOptions& options) {
   const std::string color = drawing.shade(robot_color(index));
@@ -159,7 +172,10 @@ void draw_robot(Drawing& drawing, const ReplayRobot& robot, int index, std::size
   }
   drawing.circle(goal_at(robot, time), 0.4 * robot.radius,
                  "fill=\"none\" stroke=\"" + color + "\" stroke-width=\"1.5\"");
-  drawing.circle(here, robot.radius, "fill=\"" + color + "\"");
+  if (robot.corners.empty())
+    drawing.circle(here, robot.radius, "fill=\"" + color + "\"");
+  else
+    drawing.polygon(placed(robot.corners, pose), "fill=\"" + color + "\"");
   const double size = std::clamp(1.1 * drawing.scaled(robot.radius), 7.0, 14.0);
   drawing.label(here, std::to_string(robot.id), size,
                 "font-weight=\"600\" fill=\"" + drawing.color("on-accent") + "\"");

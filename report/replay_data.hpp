@@ -110,6 +110,7 @@ struct ReplayGoal {
 struct ReplayRobot {
   int id = 0;
   double radius = 0.3;                   ///< [m]
+  std::vector<ReplayPoint> corners;      ///< [m] in the body frame, of a robot that has them
   ReplayPoint goal;                      ///< the first
   std::vector<ReplayGoal> goals;         ///< further ones, times ascending
   std::size_t wheels = 3;                ///< at most 6; of a car 1: its rear axle

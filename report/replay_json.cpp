@@ -164,6 +164,8 @@ json robot_json(const ReplayRobot& robot, SharedTexts& texts) {
   json goals = json::array();
   for (const ReplayGoal& goal : robot.goals)
     goals.push_back({{"time", quantised(goal.time, kTimeStep)}, {"at", point(goal.position)}});
+  json corners = json::array();
+  for (const ReplayPoint& corner : robot.corners) corners.push_back(point(corner));
   json whole = {
       {"id", robot.id},
       {"radius", length(robot.radius)},
@@ -192,6 +194,7 @@ json robot_json(const ReplayRobot& robot, SharedTexts& texts) {
       {"cell_origin", point(robot.cell_origin)},
       {"cells", std::move(updates)},
   };
+  if (!robot.corners.empty()) whole["corners"] = std::move(corners);
   if (!robot.goals.empty()) whole["goals"] = std::move(goals);
   return whole;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/body.hpp"
 #include "sim/geometry.hpp"
 
 namespace spf::sim {
@@ -136,6 +137,54 @@ std::optional<Contact> StaticShapes::first_contact(const Motion& motion, double 
     const auto distance = [&](double share) { return distance_to_segment(motion.at(share), piece.segment); };
     consider(first_below(distance, radius), piece.polygon < 0 ? ContactWith::map : ContactWith::polygon,
              piece.polygon);
+  });
+  return first;
+}
+
+double StaticShapes::distance_to(const Shape& shape, const PlacedPolygon& outline) const {
+  const auto index = static_cast<std::size_t>(shape.index);
+  if (shape.kind == ContactWith::box) return outline.distance_to(PlacedPolygon{boxes_[index]});
+  if (shape.kind == ContactWith::disc)
+    return outline.distance_to(discs_[index].center) - discs_[index].radius;
+  return outline.distance_to(walls_[index]);
+}
+
+double StaticShapes::clearance(const PlacedPolygon& outline, const Eigen::Vector2d& centre, double radius,
+                               double far) const {
+  double nearest = far;
+  if (border_) nearest = std::min(nearest, outline.depth_in(*border_));
+  grid_.visit(centre, std::max(nearest, 0.0) + radius + reach_, [&](int shape) {
+    nearest = std::min(nearest, distance_to(shapes_[static_cast<std::size_t>(shape)], outline));
+  });
+  outlines_.visit(centre, std::max(nearest, 0.0) + radius, [&](const Outlines::Piece& piece) {
+    nearest = std::min(nearest, outline.distance_to(piece.segment));
+  });
+  return nearest;
+}
+
+std::optional<Contact> StaticShapes::first_contact(const BodyMotion& motion) const {
+  std::optional<Contact> first;
+  const double reach = motion.reach();
+  const auto consider = [&](ContactWith kind, int index, const auto& distance) {
+    const std::optional<double> share =
+        first_touch(reach, [&](double at) { return distance(motion.at(at)); });
+    if (!share || (first && first->time <= *share)) return;
+    first = Contact{};
+    first->time = *share;
+    first->with = kind;
+    first->other = index;
+    first->position_world = motion.centre.at(*share);
+  };
+  if (border_)
+    consider(ContactWith::border, -1, [&](const PlacedPolygon& body) { return body.depth_in(*border_); });
+  const double near = motion.outline->circumscribed_radius() + reach;
+  grid_.visit(motion.centre.from, reach_ + near, [&](int number) {
+    const Shape& shape = shapes_[static_cast<std::size_t>(number)];
+    consider(shape.kind, shape.index, [&](const PlacedPolygon& body) { return distance_to(shape, body); });
+  });
+  outlines_.visit(motion.centre.from, near, [&](const Outlines::Piece& piece) {
+    consider(piece.polygon < 0 ? ContactWith::map : ContactWith::polygon, piece.polygon,
+             [&](const PlacedPolygon& body) { return body.distance_to(piece.segment); });
   });
   return first;
 }

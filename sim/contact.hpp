@@ -63,6 +63,9 @@ struct Motion {
 /// Share of the step in [0, 1] at which two moving points are first nearer than `distance`.
 [[nodiscard]] std::optional<double> first_within(const Motion& a, const Motion& b, double distance);
 
+class PlacedPolygon;
+struct BodyMotion;
+
 /// Clearances to the static shapes of a scenario. Far shapes are skipped by means of a grid of their
 /// positions.
 class StaticShapes {
@@ -78,6 +81,11 @@ class StaticShapes {
   /// The first contact of a disc that moves over one step, with `time` as the share of the step in [0, 1].
   [[nodiscard]] std::optional<Contact> first_contact(const Motion& motion, double radius) const;
 
+  // Likewise of a robot with corners, whose outline lies within `radius` [m] of `centre`.
+  [[nodiscard]] double clearance(const PlacedPolygon& outline, const Eigen::Vector2d& centre, double radius,
+                                 double far = kFar) const;
+  [[nodiscard]] std::optional<Contact> first_contact(const BodyMotion& motion) const;
+
  private:
   struct Shape {
     ContactWith kind;
@@ -85,6 +93,7 @@ class StaticShapes {
   };
   [[nodiscard]] double distance_to(const Shape& shape, const Eigen::Vector2d& position) const;
   [[nodiscard]] double swept_distance_to(const Shape& shape, const Motion& motion) const;
+  [[nodiscard]] double distance_to(const Shape& shape, const PlacedPolygon& outline) const;
 
   std::optional<Box> border_;
   std::vector<Box> boxes_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace spf::sim {
 namespace {
@@ -17,6 +18,40 @@ Motion part_of(const Motion& motion, double share_from, double share_to) {
 
 double length(const Motion& motion) {
   return (motion.to - motion.from).norm();
+}
+
+/// A disc, or a robot with corners within one, over a tick.
+struct Moving {
+  Motion motion;
+  double radius;              // [m]
+  const RobotTruth* corners;  // of a robot that has them
+
+  [[nodiscard]] double reach() const { return corners != nullptr ? corners->body().reach() : length(motion); }
+};
+
+Moving moving(const RobotTruth& truth) {
+  return {truth.motion, truth.radius, truth.outline ? &truth : nullptr};
+}
+
+double distance_at(double share, const Moving& a, const Moving& b) {
+  if (a.corners == nullptr) return b.corners->body().at(share).distance_to(a.motion.at(share)) - a.radius;
+  if (b.corners == nullptr) return a.corners->body().at(share).distance_to(b.motion.at(share)) - b.radius;
+  return a.corners->body().at(share).distance_to(b.corners->body().at(share));
+}
+
+struct Encounter {
+  double clearance;             // [m] the least of two outlines; of those with corners it may be less
+  std::optional<double> touch;  // share of the tick at which they first do
+};
+
+Encounter meet(const Moving& a, const Moving& b) {
+  const double sum = a.radius + b.radius;
+  const double gap = swept_distance(a.motion, b.motion) - sum;
+  if (gap >= 0.0) return {gap, std::nullopt};
+  if (a.corners == nullptr && b.corners == nullptr)
+    return {gap, first_within(a.motion, b.motion, sum).value_or(0.0)};
+  const auto distance = [&](double share) { return distance_at(share, a, b); };
+  return {std::min(distance(0.0), distance(1.0)), first_touch(a.reach() + b.reach(), distance)};
 }
 
 }  // namespace
@@ -62,20 +97,19 @@ void ContactMonitor::check_dynamic_obstacles(const Tick& tick, std::size_t robot
                                              const std::vector<DynamicObstacle>& dynamic_obstacles) {
   for (const DynamicObstacle& obstacle : dynamic_obstacles) {
     const Motion motion = part_of(obstacle.motion, tick.share_from, tick.share_to);
-    const double sum = truth.radius + obstacle.radius;
-    const double distance = swept_distance(truth.motion, motion);
+    const Encounter encounter = meet(moving(truth), {motion, obstacle.radius, nullptr});
     if (!truth.arrived && !truth.wrecked) {
-      dynamic_distance_ = std::min(dynamic_distance_, distance);
-      dynamic_clearance_ = std::min(dynamic_clearance_, distance - sum);
+      dynamic_distance_ = std::min(dynamic_distance_, swept_distance(truth.motion, motion));
+      dynamic_clearance_ = std::min(dynamic_clearance_, encounter.clearance);
     }
     const std::pair<int, int> pair{static_cast<int>(robot), obstacle.id};
-    if (distance >= sum) {
+    if (!encounter.touch) {
       touching_obstacles_.erase(pair);
       continue;
     }
     if (truth.wrecked || (obstacle.person && forgiven_.count(pair) > 0)) continue;
     if (!touching_obstacles_.insert(pair).second) continue;
-    Contact contact = contact_of(tick, first_within(truth.motion, motion, sum).value_or(0.0), robot, truth);
+    Contact contact = contact_of(tick, *encounter.touch, robot, truth);
     contact.other = obstacle.id;
     contact.other_speed = length(obstacle.motion) / DynamicObstacles::kStep;
     contact.with = obstacle.person ? ContactWith::person : ContactWith::moving;
@@ -92,14 +126,18 @@ void ContactMonitor::check_static(const Tick& tick, std::size_t robot, const Rob
     touching_static_[robot] = false;
     return;
   }
-  const double clearance = shapes_.clearance(truth.motion.to, truth.radius);
-  free_[robot] = {truth.motion.to, clearance};
+  const double around = shapes_.clearance(truth.motion.to, truth.radius);
+  free_[robot] = {truth.motion.to, around};
+  double clearance = around;
+  if (truth.outline && around < static_clearance_[robot])
+    clearance = shapes_.clearance(truth.body().at(1.0), truth.motion.to, truth.radius);
   if (!truth.arrived) static_clearance_[robot] = std::min(static_clearance_[robot], clearance);
-  if (clearance > length(truth.motion)) {
+  if (around > length(truth.motion)) {
     touching_static_[robot] = false;
     return;
   }
-  const std::optional<Contact> found = shapes_.first_contact(truth.motion, truth.radius);
+  const std::optional<Contact> found =
+      truth.outline ? shapes_.first_contact(truth.body()) : shapes_.first_contact(truth.motion, truth.radius);
   if (found && !touching_static_[robot]) {
     Contact contact = contact_of(tick, found->time, robot, truth);
     contact.with = found->with;
@@ -142,14 +180,13 @@ void ContactMonitor::check_pair(const Tick& tick, const std::vector<RobotTruth>&
                                 std::size_t j) {
   if (robots[i].wrecked && robots[j].wrecked) return;
   if (robots[i].gone || robots[j].gone) return;
-  const double sum = robots[i].radius + robots[j].radius;
-  const double distance = swept_distance(robots[i].motion, robots[j].motion);
-  if (!robots[i].arrived || !robots[j].arrived) peer_clearance_ = std::min(peer_clearance_, distance - sum);
-  if (distance >= sum || !touching_pairs_.insert({static_cast<int>(i), static_cast<int>(j)}).second) return;
-  const double share = first_within(robots[i].motion, robots[j].motion, sum).value_or(0.0);
+  const Encounter encounter = meet(moving(robots[i]), moving(robots[j]));
+  if (!robots[i].arrived || !robots[j].arrived)
+    peer_clearance_ = std::min(peer_clearance_, encounter.clearance);
+  if (!encounter.touch || !touching_pairs_.insert({static_cast<int>(i), static_cast<int>(j)}).second) return;
   const std::size_t robot = robots[i].wrecked ? j : i;  // one that still moves
   const std::size_t other = robot == i ? j : i;
-  Contact contact = contact_of(tick, share, robot, robots[robot]);
+  Contact contact = contact_of(tick, *encounter.touch, robot, robots[robot]);
   contact.with = ContactWith::robot;
   contact.other = static_cast<int>(other);
   contact.other_speed = robots[other].velocity_world.norm();

@@ -106,5 +106,46 @@ TEST(MixedFleet, DrivesEveryRobotOnItsOwnWheels) {
   }
 }
 
+/// A robot of these sides before a door in a wall across the room.
+Scenario before_door(DriveType drive, double length, double width, double door) {
+  Scenario scenario = make_scenario(family_setup(Family::t2), kDefaultSeed, 0);
+  scenario.robot = robot_with(drive);
+  scenario.robot.length = length;
+  scenario.robot.width = width;
+  scenario.robot = with_radius_of_footprint(scenario.robot);
+  scenario.moving.clear();
+  scenario.discs.clear();
+  scenario.boxes.clear();
+  scenario.border = Box{{-4.0, -4.0}, {4.0, 4.0}};
+  scenario.walls = {{{0.0, -4.0}, {0.0, -0.5 * door}}, {{0.0, 0.5 * door}, {0.0, 4.0}}};
+  scenario.robots.resize(1);
+  scenario.robots[0] = {};
+  scenario.robots[0].start = {{-2.0, 1.0}, 1.0};
+  scenario.robots[0].goal_world = {2.0, 1.0};
+  return scenario;
+}
+
+// Doors that the disc around the robot does not fit through, 0.12 m wider than the robot; and long robots
+// that move every way turn their narrow side to it.
+TEST(FootprintsSlow, PassDoorsByTheirWidth) {
+  struct Robot {
+    DriveType drive;
+    double length, width;
+  };
+  for (const Robot& robot : {Robot{DriveType::differential, 0.51, 0.43}, Robot{DriveType::omni, 1.0, 0.4},
+                             Robot{DriveType::mecanum, 0.9, 0.5}}) {
+    const Scenario scenario = before_door(robot.drive, robot.length, robot.width, robot.width + 0.12);
+    ASSERT_GT(2.0 * scenario.robot.radius, robot.width + 0.12);
+    const TrialResult result = Simulation{scenario, defaults_for(scenario.robot)}.run();
+    EXPECT_EQ(result.outcome, TrialOutcome::success) << robot.length << " x " << robot.width;
+    EXPECT_GT(result.static_clearance, 0.0);
+  }
+  // The disc alone does not get through.
+  Scenario scenario = before_door(DriveType::differential, 0.51, 0.43, 0.55);
+  scenario.robot.length = scenario.robot.width = 0.0;
+  scenario.simulation.trial.time_limit = 20.0;
+  EXPECT_NE((Simulation{scenario, defaults_for(scenario.robot)}.run().outcome), TrialOutcome::success);
+}
+
 }  // namespace
 }  // namespace spf::sim

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/body.hpp"
 #include "sim/geometry.hpp"
 #include "spf/math/angles.hpp"
 #include "spf/math/plane.hpp"
@@ -74,7 +75,14 @@ void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& di
   outlines_.visit(pose_world.position_world, range_,
                   [&](const Outlines::Piece& piece) { cast_segment(piece.segment, sweep); });
   for (const Disc& disc : discs_) cast_disc(disc.center, disc.radius, sweep);
-  for (const SeenDisc& disc : discs) cast_disc(disc.position_world, disc.radius, sweep);
+  for (const SeenDisc& disc : discs) {
+    if (disc.outline == nullptr) {
+      cast_disc(disc.position_world, disc.radius, sweep);
+      continue;
+    }
+    const PlacedPolygon body{*disc.outline, disc.position_world, disc.heading};
+    for (std::size_t i = 0; i < body.size(); ++i) cast_segment(body.side(i), sweep);
+  }
 }
 
 bool RangeSensor::sees(const Eigen::Vector2d& from_world, const SeenDisc& target,
@@ -108,7 +116,10 @@ bool RangeSensor::line_clear(const Segment& line, const SeenDisc& target,
     if (distance_to_segment(disc.center, line) < disc.radius) return false;
   for (const SeenDisc& disc : discs) {
     const bool itself = disc.position_world == target.position_world && disc.radius == target.radius;
-    if (!itself && distance_to_segment(disc.position_world, line) < disc.radius) return false;
+    if (itself || distance_to_segment(disc.position_world, line) >= disc.radius) continue;
+    if (disc.outline == nullptr) return false;
+    const PlacedPolygon body{*disc.outline, disc.position_world, disc.heading};
+    if (!(body.distance_to(line) > 0.0)) return false;
   }
   return true;
 }

@@ -7,14 +7,17 @@
 
 #include "sim/outlines.hpp"
 #include "sim/scenario.hpp"
+#include "spf/robot/footprint.hpp"
 #include "spf/world/observation.hpp"
 
 namespace spf::sim {
 
-/// A disc that blocks beams: a moving obstacle or another robot.
+/// What blocks beams: the disc of a moving obstacle or of another robot, or a polygon within it.
 struct SeenDisc {
   Eigen::Vector2d position_world = Eigen::Vector2d::Zero();  ///< [m]
   double radius = 0.0;                                       ///< [m]
+  const Footprint* outline = nullptr;                        ///< of a robot with corners
+  double heading = 0.0;                                      ///< [rad] of it
 };
 
 class RangeSensor {

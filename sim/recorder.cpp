@@ -42,7 +42,8 @@ void take_nearer(RecordedClearance& clearance, double distance, int other) {
 void measure_clearances(const TrialFrame& view, std::size_t robot, RecordedRobot& recorded) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const Eigen::Vector2d& position = recorded.pose.position_world;
-  const double radius = (*view.robots)[robot].radius;
+  const RobotTruth& truth = (*view.robots)[robot];
+  const double radius = truth.radius;
   recorded.to_dynamic = recorded.to_peer = {kNone, -1};
   for (const DynamicObstacle& obstacle : *view.dynamic_obstacles)
     take_nearer(recorded.to_dynamic,
@@ -53,7 +54,9 @@ void measure_clearances(const TrialFrame& view, std::size_t robot, RecordedRobot
       take_nearer(recorded.to_peer, (other.pose.position_world - position).norm() - (radius + other.radius),
                   static_cast<int>(j));
   }
-  recorded.to_static = {view.shapes->clearance(position, radius), -1};
+  const double to_static = truth.outline ? view.shapes->clearance(truth.body().at(1.0), position, radius)
+                                         : view.shapes->clearance(position, radius);
+  recorded.to_static = {to_static, -1};
 }
 
 std::string reason_text(const AgentStatus& status) {

@@ -144,7 +144,11 @@ void Sensing::gather_bodies(int robot, const Eigen::Vector2d& from, const Surrou
   if (parameters_.peers_block_beams)
     surroundings.robot_grid->visit(from, parameters_.range + largest_radius_, [&](int peer) {
       const auto index = static_cast<std::size_t>(peer);
-      if (peer != robot) bodies_.push_back({(*surroundings.robots)[index], radii_[index]});
+      if (peer == robot) return;
+      bodies_.push_back({(*surroundings.robots)[index], radii_[index]});
+      if (surroundings.bodies == nullptr) return;
+      bodies_.back().outline = (*surroundings.bodies)[index].outline.get();
+      bodies_.back().heading = (*surroundings.bodies)[index].pose.heading;
     });
 }
 

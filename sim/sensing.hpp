@@ -7,6 +7,7 @@
 
 #include "sim/dynamic_obstacles.hpp"
 #include "sim/range_sensor.hpp"
+#include "sim/robot_truth.hpp"
 #include "sim/uniform_grid.hpp"
 #include "spf/math/random_stream.hpp"
 #include "spf/world/observation.hpp"
@@ -25,6 +26,7 @@ struct Surroundings {
   const std::vector<Eigen::Vector2d>* robots = nullptr;  ///< [m] centres
   const UniformGrid* robot_grid = nullptr;               ///< over `robots`
   const std::vector<int>* broken = nullptr;              ///< robots that nobody hears of, sorted; null: none
+  const std::vector<RobotTruth>* bodies = nullptr;       ///< of the robots; null: all are discs
 };
 
 class Sensing {

@@ -44,6 +44,9 @@ World::World(const Scenario& scenario)
     truth.pose = task.start;
     truth.motion = {task.start.position_world, task.start.position_world};
     truth.radius = scenario.robot_of(i).radius;
+    truth.heading_from = task.start.heading;
+    if (has_corners(scenario.robot_of(i)))
+      truth.outline = std::make_shared<const Footprint>(scenario.robot_of(i));
     truth.gone = joins_later(scenario, i);
     robots_.push_back(truth);
     plants_.emplace_back(scenario.robot_of(i), PlantState{task.start, Eigen::Vector3d::Zero()});
@@ -115,6 +118,7 @@ void World::obey(const FleetOrder& order) {
       truth.gone = truth.broken = truth.paused = truth.stopped = false;
       truth.pose = scenario_.robots[robot].start;
       truth.motion = {truth.pose.position_world, truth.pose.position_world};
+      truth.heading_from = truth.pose.heading;
       positions_[robot] = truth.pose.position_world;
       plants_[robot] =
           DriveDynamics{scenario_.robot_of(robot), PlantState{truth.pose, Eigen::Vector3d::Zero()}};
@@ -159,8 +163,8 @@ PoseMeasurement World::measure_pose(int robot) {
 }
 
 void World::observe(int robot, Observation& observation) {
-  const Surroundings surroundings{time(),      share(), &dynamic_obstacles_.all(),
-                                  &positions_, &grid_,  &life_.broken};
+  const Surroundings surroundings{time(),        share(), &dynamic_obstacles_.all(), &positions_, &grid_,
+                                  &life_.broken, &robots_};
   sensing_.observe(robot, robots_[as_index(robot)].pose, surroundings, observation);
 }
 
@@ -186,6 +190,7 @@ void World::move() {
 void World::move(std::size_t robot) {
   RobotTruth& truth = robots_[robot];
   truth.motion.from = truth.pose.position_world;
+  truth.heading_from = truth.pose.heading;
   const bool ideal = scenario_.simulation.trial.tracking == TrackingMode::ideal;
   if (truth.wrecked || truth.gone || (truth.broken && ideal)) {
     truth.velocity_world.setZero();

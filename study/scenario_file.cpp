@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "config/contradiction_report.hpp"
+#include "config/footprint_reader.hpp"
 #include "config/parameter_text.hpp"
 #include "config/removed_keys.hpp"
 #include "config/renamed_keys.hpp"
@@ -43,6 +44,7 @@ void prepare_fleet(const YamlNode& root, RunConfiguration& config) {
     kind.robot = config.robot;
     FieldReader own{entry, "", no_hints, reported_later};
     RobotKind::visit_robot(kind, own);
+    settle_footprint(entry.find("robot"), "robot", kind.robot, reported_later);
     kind.agent = with_method(defaults_for(kind.robot), kind.method.method());
     FieldReader common{root, "", no_hints, reported_later};
     PartlyHidden<AgentParameters> agent{kind.agent, {"robot"}};
@@ -65,12 +67,17 @@ RunConfiguration read_keys(const YamlNode& root, const MethodTable& methods, Inp
     return key.rfind("fleet[].", 0) == 0 || key.rfind("events[].", 0) == 0;
   });
   reader.group("robot", head.robot);
+  settle_footprint(root.find("robot"), "robot", head.robot, problems);
   RunConfiguration config = default_run_configuration(head.family, head.method, head.robot);
   config.seed = head.seed;
   RunConfiguration::visit_scene(config, reader);
   RunConfiguration::visit_parameters(config, reader);
   if (problems.empty()) prepare_fleet(root, config);
   RunConfiguration::visit_fleet(config, reader);
+  if (const YamlNode* fleet = root.find("fleet"))
+    for (std::size_t i = 0; i < std::min(config.fleet.size(), fleet->items.size()); ++i)
+      settle_footprint(fleet->items[i].find("robot"), "fleet[" + std::to_string(i) + "].robot",
+                       config.fleet[i].robot, problems);
   reader.finish();
   return config;
 }

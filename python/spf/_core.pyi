@@ -43,9 +43,24 @@ class RobotParameters:
     def drive(self, value: str) -> None: ...
     @property
     def radius(self) -> float:
-        """radius of the robot's disc [m], [0.01, 5]"""
+        """radius of the robot's disc; with corners it is that of the disc around them, whatever is set [m], [0.01, 5]"""
     @radius.setter
     def radius(self, value: float) -> None: ...
+    @property
+    def length(self) -> float:
+        """of a rectangular robot, along x, with its centre in the middle; 0: it is a disc, or has a footprint [m], [0, 10]"""
+    @length.setter
+    def length(self, value: float) -> None: ...
+    @property
+    def width(self) -> float:
+        """of a rectangular robot, along y [m], [0, 10]"""
+    @width.setter
+    def width(self, value: float) -> None: ...
+    @property
+    def footprint(self) -> ndarray:
+        """corners of the robot's outline, a convex polygon around its centre, in the body frame; points of two numbers [m], [-5, 5]"""
+    @footprint.setter
+    def footprint(self, value: ndarray) -> None: ...
     @property
     def max_speed(self) -> float:
         """largest planned speed of the centre [m/s], [0.01, 20]"""

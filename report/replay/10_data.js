@@ -45,6 +45,7 @@ function decodeRobot(raw, position, frames, texts) {
   const angles = (name) => decodeColumn(raw[name], frames, ANGLE);
   return {
     id: raw.id, position, color: `robot-${position % 5}`, radius: known(raw.radius, LENGTH), goal: decodePoint(raw.goal),
+    corners: (raw.corners ?? []).map(decodePoint),
     goals: (raw.goals ?? []).map((goal) => ({ time: known(goal.time, TIME), at: decodePoint(goal.at) })),
     wheelLimit: known(raw.wheel_limit, LENGTH), range: known(raw.range, LENGTH),
     x: lengths("x"), y: lengths("y"), heading: angles("heading"),

@@ -132,3 +132,13 @@ sceneCanvas.addEventListener("wheel", (event) => {
   const position = pointerPosition(event);
   zoomAt(position.x, position.y, Math.exp(-Math.sign(event.deltaY) * Math.min(Math.abs(event.deltaY), 120) * 0.0018));
 }, { passive: false });
+
+/** The outline of a robot: of its disc, or through its corners. */
+function bodyPath(robot, x, y, heading) {
+  if (robot.corners.length === 0) return circlePath(x, y, robot.radius);
+  const cosine = Math.cos(heading), sine = Math.sin(heading);
+  pen.beginPath();
+  for (const corner of robot.corners)
+    pen.lineTo(toScreenX(x + cosine * corner.x - sine * corner.y), toScreenY(y + sine * corner.x + cosine * corner.y));
+  pen.closePath();
+}

@@ -273,7 +273,7 @@ function drawRobot(robot, frame, chosen) {
   const x = sample(robot.x, frame), y = sample(robot.y, frame), heading = sampleAngle(robot.heading, frame);
   const px = toScreenX(x), py = toScreenY(y), radius = robot.radius * view.scale;
   const color = colors[robot.color];
-  circlePath(x, y, robot.radius);
+  bodyPath(robot, x, y, heading);
   pen.fillStyle = color;
   pen.fill();
   pen.strokeStyle = colors.panel;

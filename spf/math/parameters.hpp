@@ -2,6 +2,8 @@
 // files, command line, printed table and range check alike.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
@@ -21,7 +23,7 @@ struct Range {
 /// What a default scales with from robot to robot (spf/robot/robot_scale.hpp). A value that is set explicitly
 /// is taken as written.
 enum class Scale {
-  size,                ///< radius of the robot
+  size,                ///< radius of the robot; half the width of one with corners
   stopping_distance,   ///< distance within which it can turn or stop
   speed,               ///< its speed
   acceleration,        ///< speed / time
@@ -59,6 +61,7 @@ template <class E>
 ///   visit(name, number, unit, range, what)   for double and int; a ScaledUnit as unit says that the default
 ///                                            follows the robot
 ///   visit(name, value, what)                 for bool and for enumerations with EnumNames
+///   visit.values(name, vector, unit, range, what)   for lists of numbers and of points
 ///   visit.group(name, nested_parameters)     for nested structs with a visit_fields of their own
 /// `what` says in one sentence what the field is and where it comes from (equation, paper, our choice).
 class ProblemCollector {
@@ -74,6 +77,14 @@ class ProblemCollector {
   }
   template <class Choice>
   void operator()(const char* /*name*/, const Choice& /*value*/, const char* /*what*/) {}
+  void values(const char* name, const std::vector<Eigen::Vector2d>& points, const char* unit, Range range,
+              const char* what) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::string entry = std::string{name} + "[" + std::to_string(i) + "]";
+      for (const double coordinate : {points[i].x(), points[i].y()})
+        operator()(entry.c_str(), coordinate, unit, range, what);
+    }
+  }
   template <class Parameters>
   void group(const char* name, const Parameters& nested) {
     const std::string outer = prefix_;

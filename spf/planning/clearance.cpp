@@ -29,9 +29,9 @@ struct WalkEnd {
   double least = std::numeric_limits<double>::infinity();
 };
 
-/// Sweeps along the trajectory; `clearance(time, position)` is a signed distance that changes no faster than
-/// approach_speed. A conflict is a clearance below `floor`, or below 0 once it has been above; a start below
-/// the floor lowers it. A floor of minus infinity only measures the least clearance.
+/// Sweeps along the trajectory; `clearance(time, position, trajectory)` is a signed distance that changes no
+/// faster than approach_speed. A conflict is a clearance below `floor`, or below 0 once it has been above; a
+/// start below the floor lowers it. A floor of minus infinity only measures the least clearance.
 template <class ClearanceAt>
 WalkEnd walk(const Trajectory& trajectory, double from, const Subject& subject, double floor,
              const ClearanceAt& clearance) {
@@ -44,7 +44,7 @@ WalkEnd walk(const Trajectory& trajectory, double from, const Subject& subject, 
   bool inside = false;
   for (double time = from; time <= subject.until;) {
     cursor.move_to(time);
-    const double now = clearance(time, cursor.position());
+    const double now = clearance(time, cursor.position(), trajectory);
     if (time == from) floor = std::min(floor, now);
     end.least = std::min(end.least, now);
     if (now < floor - kSlack) {
@@ -88,7 +88,7 @@ void check_against(const Trajectory& trajectory, const ClearanceWindow& window, 
 
 ClearanceModel::ClearanceModel(const PlannerParameters& planner, const RobotParameters& robot,
                                const FieldParameters& field)
-    : planner_{planner}, robot_{robot}, field_{field} {
+    : planner_{planner}, robot_{robot}, footprint_{robot}, field_{field} {
   constexpr std::size_t kUsualCount = 64;
   discs_.reserve(kUsualCount);
   regions_.reserve(kUsualCount);
@@ -147,6 +147,16 @@ double ClearanceModel::static_clearance(const Eigen::Vector2d& position_world, d
   return map_->distance(position_world) - robot_.radius - margin_scale * static_margin_;
 }
 
+double ClearanceModel::static_clearance(const Eigen::Vector2d& position_world, double heading,
+                                        double margin_scale) const {
+  if (footprint_.is_disc()) return static_clearance(position_world, margin_scale);
+  const auto distance = [this](const Eigen::Vector2d& point) { return map_->distance(point); };
+  // Farther off it matters no more how near exactly.
+  const double enough = robot_.radius + margin_scale * static_margin_;
+  return footprint_.clearance(position_world, {std::cos(heading), std::sin(heading)}, enough, distance) -
+         margin_scale * static_margin_;
+}
+
 double ClearanceModel::field_clearance(const Eigen::Vector2d& position_world) const {
   double least = std::numeric_limits<double>::infinity();
   for (const DangerRegion& region : regions_)
@@ -182,11 +192,18 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
   // No alternative justifies contact, that is, the loss of the whole margin.
   constexpr double kLosable = 0.9;
   const double static_margin = window.margin_scale * static_margin_;
+  // As it turns, its corners move besides.
+  const double corner_speed = footprint_.is_disc() ? 0.0 : robot_.radius * robot_.max_yaw_rate;
   check_against(
       trajectory, window,
-      {ConflictKind::static_map, -1, kInterpolationSteepness * speed, window.static_until},
+      {ConflictKind::static_map, -1, kInterpolationSteepness * (speed + corner_speed), window.static_until},
       -kLosable * static_margin,
-      [&](double, const Eigen::Vector2d& p) { return static_clearance(p, window.margin_scale); }, report);
+      [&](double time, const Eigen::Vector2d& p, const Trajectory& along) {
+        return footprint_.is_disc()
+                   ? static_clearance(p, window.margin_scale)
+                   : static_clearance(p, along.heading_state(time).heading, window.margin_scale);
+      },
+      report);
 
   // Obstacles have no margin.
   const double peer_margin = window.margin_scale * planner_.peer_margin;
@@ -197,7 +214,7 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
     const double floor = disc.is_peer ? -kLosable * peer_margin : -std::numeric_limits<double>::max();
     check_against(
         trajectory, window, {kind, disc.id, speed + disc.speed_bound, window.moving_until}, floor,
-        [&](double time, const Eigen::Vector2d& p) {
+        [&](double time, const Eigen::Vector2d& p, const Trajectory&) {
           other.move_to(time);
           return (p - other.position()).norm() - disc.radius - margin;
         },
@@ -209,7 +226,9 @@ ClearanceReport ClearanceModel::check(const Trajectory& trajectory, const Cleara
     check_against(
         trajectory, window, {ConflictKind::obstacle, region.id, speed, window.moving_until},
         -std::numeric_limits<double>::max(),
-        [&](double, const Eigen::Vector2d& p) { return region.field.clearance(p, region.threshold); },
+        [&](double, const Eigen::Vector2d& p, const Trajectory&) {
+          return region.field.clearance(p, region.threshold);
+        },
         report);
   return report;
 }

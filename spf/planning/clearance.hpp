@@ -10,6 +10,7 @@
 #include "spf/planning/moving_disc.hpp"
 #include "spf/planning/planner_parameters.hpp"
 #include "spf/robot/drive.hpp"
+#include "spf/robot/footprint.hpp"
 #include "spf/robot/robot_parameters.hpp"
 #include "spf/world/world_snapshot.hpp"
 
@@ -72,9 +73,12 @@ class ClearanceModel {
   /// that is too close is accepted as long as that distance does not shrink.
   [[nodiscard]] ClearanceReport check(const Trajectory& trajectory, const ClearanceWindow& window) const;
 
-  /// Distance to static surfaces beyond radius and margin [m].
+  /// Distance to static surfaces beyond radius and margin [m], whatever the heading.
   [[nodiscard]] double static_clearance(const Eigen::Vector2d& position_world,
                                         double margin_scale = 1.0) const;
+  /// Likewise beyond the robot's outline and margin, at a heading [rad].
+  [[nodiscard]] double static_clearance(const Eigen::Vector2d& position_world, double heading,
+                                        double margin_scale) const;
   /// Smallest clearance from the danger regions [m]; infinite without any.
   [[nodiscard]] double field_clearance(const Eigen::Vector2d& position_world) const;
   /// The danger region in which a position lies deepest, or else the nearest one; null without any.
@@ -98,6 +102,7 @@ class ClearanceModel {
 
   PlannerParameters planner_;
   RobotParameters robot_;
+  Footprint footprint_;
   FieldParameters field_;
   const OccupancyMap* map_ = nullptr;
   double static_margin_ = 0.0;  // [m]

@@ -25,10 +25,12 @@ constexpr std::int64_t kLookWork = 2;       // of distance()
 constexpr std::int64_t kExactLookWork = 6;  // of exact_distance()
 constexpr int kBendRounds = 3;              // a path between neighbours bends 7 times at most
 
-/// [1] Of a metre where there is so much room [m], beyond its length.
-double narrow_price(double room, double least, double wanted) {
+/// [1] Of a metre where there is so much room [m], beyond its length. With less than `turning` a robot with
+/// corners cannot turn, so that it may not get through what bends.
+double narrow_price(double room, double least, double wanted, double turning) {
   const double lack = std::max(wanted - room, 0.0) / std::max(wanted - least, 1e-9);
-  const double tight = 1.0 - (room - least) / std::max(kTightShare * (wanted - least), 1e-9);
+  const double tight =
+      1.0 - (room - least) / std::max({kTightShare * (wanted - least), turning - least, 1e-9});
   return kNarrowCost * lack * lack + kTightCost * std::max(tight, 0.0);
 }
 
@@ -69,7 +71,7 @@ std::optional<double> CostToGo::narrow_view(const OccupancyMap& map, const Eigen
       work_ += kExactLookWork;
     }
     if (!(room >= least)) return std::nullopt;
-    const double price = narrow_price(room, least, wanted);
+    const double price = narrow_price(room, least, wanted, clearance_ - parameters_.clearance);
     cost += 0.5 * step * (price_before + price);
     price_before = price;
     // What costs next to nothing shares its parent with its neighbours, which saves memory.

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "spf/robot/drive.hpp"
+#include "spf/robot/footprint.hpp"
 #include "spf/robot/robot_parameters.hpp"
 #include "spf/trajectory/trajectory.hpp"
 
@@ -14,6 +15,12 @@ namespace spf {
 /// Of drives that cannot move sideways.
 [[nodiscard]] constexpr bool steers(DriveType drive) {
   return drive == DriveType::differential || drive == DriveType::car;
+}
+
+/// Robots that plan to drive along their heading: those, and all with corners, so that they fit through where
+/// they point.
+[[nodiscard]] inline bool steers(const RobotParameters& robot) {
+  return steers(robot.drive) || has_corners(robot);
 }
 
 struct SteeredState {

@@ -1,8 +1,11 @@
 // The robot: size, limits, drive. Shared by planner (limits), controller (kinematics) and simulator (plant).
 #pragma once
 
+#include <Eigen/Core>
+
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "spf/math/parameters.hpp"
 
@@ -23,14 +26,17 @@ inline constexpr int kMaxDriveInputs = 6;
 
 struct RobotParameters {
   DriveType drive = DriveType::omni;
-  double radius = 0.3;                ///< [m]
-  double max_speed = 1.0;             ///< [m/s] of the centre
-  double max_acceleration = 1.0;      ///< [m/s^2]
-  double max_jerk = 20.0;             ///< [m/s^3] bound of the planned motion
-  double max_yaw_rate = 1.5;          ///< [rad/s]
-  double max_yaw_acceleration = 3.0;  ///< [rad/s^2]
-  int wheels = 3;                     ///< [1] omni wheels, evenly around the body
-  double first_wheel_angle = 0.0;     ///< [rad] angle of wheel 1's axle in the body frame
+  double radius = 0.3;                     ///< [m] of the disc, or of the one around the corners
+  double length = 0.0;                     ///< [m] along x of a rectangle around the centre; 0: it is none
+  double width = 0.0;                      ///< [m] along y
+  std::vector<Eigen::Vector2d> footprint;  ///< [m] corners of a convex polygon, in the body frame
+  double max_speed = 1.0;                  ///< [m/s] of the centre
+  double max_acceleration = 1.0;           ///< [m/s^2]
+  double max_jerk = 20.0;                  ///< [m/s^3] bound of the planned motion
+  double max_yaw_rate = 1.5;               ///< [rad/s]
+  double max_yaw_acceleration = 3.0;       ///< [rad/s^2]
+  int wheels = 3;                          ///< [1] omni wheels, evenly around the body
+  double first_wheel_angle = 0.0;          ///< [rad] angle of wheel 1's axle in the body frame
   /// [m] omni: centre to wheel contact (L of eq. 14); differential: half the distance of the wheels; mecanum:
   /// half of length plus width between the wheels' contacts.
   double wheel_arm = 0.2;
@@ -49,7 +55,14 @@ struct RobotParameters {
   template <class Self, class Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit("drive", self.drive, "omni wheels (the paper's), mecanum wheels, a differential drive, or a car");
-    visit("radius", self.radius, "m", Range{0.01, 5.0}, "radius of the robot's disc");
+    visit("radius", self.radius, "m", Range{0.01, 5.0},
+          "radius of the robot's disc; with corners it is that of the disc around them, whatever is set");
+    visit("length", self.length, "m", Range{0.0, 10.0},
+          "of a rectangular robot, along x, with its centre in the middle; 0: it is a disc, or has a "
+          "footprint");
+    visit("width", self.width, "m", Range{0.0, 10.0}, "of a rectangular robot, along y");
+    visit.values("footprint", self.footprint, "m", Range{-5.0, 5.0},
+                 "corners of the robot's outline, a convex polygon around its centre, in the body frame");
     visit("max_speed", self.max_speed, "m/s", Range{0.01, 20.0}, "largest planned speed of the centre");
     visit("max_acceleration", self.max_acceleration, "m/s^2", Range{0.01, 50.0},
           "largest planned acceleration");

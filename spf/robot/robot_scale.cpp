@@ -1,5 +1,7 @@
 #include "spf/robot/robot_scale.hpp"
 
+#include "spf/robot/footprint.hpp"
+
 namespace spf {
 namespace {
 
@@ -15,7 +17,7 @@ double response_time(const RobotParameters& robot) {
 }  // namespace
 
 RobotScale::RobotScale(const RobotParameters& robot, const RobotParameters& standard)
-    : size_{robot.radius / standard.radius},
+    : size_{Footprint{robot}.half_width() / standard.radius},
       distance_{std::max(robot.radius, 0.3 * stopping_distance(robot)) /
                 std::max(standard.radius, 0.3 * stopping_distance(standard))},
       speed_{robot.max_speed / standard.max_speed},

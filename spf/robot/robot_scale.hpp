@@ -25,6 +25,8 @@ class RobotScale {
   }
   template <class... Rest>
   void operator()(const char* /*name*/, Rest&&... /*rest*/) const {}
+  template <class... Rest>
+  void values(const char* /*name*/, Rest&&... /*rest*/) const {}
   template <class Nested>
   void group(const char* /*name*/, Nested& nested) const {
     apply(nested, 0);

@@ -1,15 +1,23 @@
 #include "spf/team/agent_parameters.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "spf/robot/footprint.hpp"
 #include "spf/robot/robot_scale.hpp"
 
 namespace spf {
 
 AgentParameters defaults_for(const RobotParameters& robot) {
-  AgentParameters parameters = scaled(AgentParameters{}, RobotScale{robot});
-  parameters.robot = robot;
+  const RobotParameters settled = with_radius_of_footprint(robot);
+  AgentParameters parameters = scaled(AgentParameters{}, RobotScale{settled});
+  parameters.robot = settled;
   return parameters;
+}
+
+AgentParameters settled(AgentParameters agent) {
+  agent.robot = with_radius_of_footprint(std::move(agent.robot));
+  return agent;
 }
 
 AgentParameters slowed_to(AgentParameters agent, double max_speed) {

@@ -76,6 +76,9 @@ struct AgentParameters {
 /// where to start; what is set afterwards counts as it is written.
 [[nodiscard]] AgentParameters defaults_for(const RobotParameters& robot);
 
+/// The parameters with what follows from others: the radius of a robot with corners.
+[[nodiscard]] AgentParameters settled(AgentParameters agent);
+
 /// The parameters with a temporary speed limit of `max_speed` [m/s]. The lookahead distances of the paper's
 /// planner shrink in proportion, so that its planning time horizon stays the same.
 [[nodiscard]] AgentParameters slowed_to(AgentParameters agent, double max_speed);

@@ -58,9 +58,9 @@ void Commitment::follow(const PlanRequest& request, const PlanResult& result) {
   }
   braking_ = result.action == PlanAction::brake;
   trajectory_ = result.trajectory;
+  if (trajectory_.steered()) return;
   if (!drive_.holonomic()) {
-    if (!trajectory_.steered())
-      trajectory_ = steered_along(trajectory_, request.head, request.heading, robot_);
+    trajectory_ = steered_along(trajectory_, request.head, request.heading, robot_);
     return;
   }
   if (ends_soon(request)) held_heading_ = *request.goal_heading;

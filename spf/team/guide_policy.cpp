@@ -5,26 +5,35 @@
 #include <utility>
 
 #include "spf/math/segment.hpp"
+#include "spf/robot/footprint.hpp"
 #include "spf/team/schedule.hpp"
 
 namespace spf {
 namespace {
 
-CostToGo for_robot(const AgentParameters& parameters, const GuideNeeds& needs) {
-  if (!needs.passes_narrow_gaps) return CostToGo{parameters.guide, parameters.robot.radius};
-  return CostToGo{parameters.guide, parameters.robot.radius, parameters.space_time.static_margin};
+/// How much less room [m] to either side a robot needs that drives along its heading than the disc around it.
+double saved_by_heading(const RobotParameters& robot) {
+  return robot.radius - Footprint{robot}.half_width();
 }
 
 constexpr double kBeside = 0.4;  // [1] of the radius: what stands so near to the path slows the robot down
 
 }  // namespace
 
+CostToGo make_guide(const AgentParameters& parameters, const GuideNeeds& needs) {
+  if (!needs.passes_narrow_gaps) return CostToGo{parameters.guide, parameters.robot.radius};
+  // Where there is room it keeps its corners away from everything; it fits through where its width does.
+  return CostToGo{parameters.guide, parameters.robot.radius,
+                  parameters.space_time.static_margin - saved_by_heading(parameters.robot)};
+}
+
 GuidePolicy::GuidePolicy(const AgentParameters& parameters, const GuideNeeds& needs, double time)
     : needs_{needs},
       goal_tolerance_{parameters.team.goal_tolerance},
-      cost_to_go_{for_robot(parameters, needs)},
+      cost_to_go_{make_guide(parameters, needs)},
       next_{cost_to_go_},
       max_speed_{parameters.robot.max_speed},
+      saved_{saved_by_heading(parameters.robot)},
       beside_{kBeside * parameters.robot.radius},
       next_time_{time} {}
 
@@ -34,7 +43,8 @@ void GuidePolicy::reconfigure(const AgentParameters& parameters, const GuideNeed
   if (max_speed_ != parameters.robot.max_speed && !cost_to_go_.standing().empty()) goal_.reset();
   max_speed_ = parameters.robot.max_speed;
   beside_ = kBeside * parameters.robot.radius;
-  CostToGo wanted = for_robot(parameters, needs);
+  saved_ = saved_by_heading(parameters.robot);
+  CostToGo wanted = make_guide(parameters, needs);
   if (wanted.clearance() == cost_to_go_.clearance() &&
       wanted.least_clearance() == cost_to_go_.least_clearance() &&
       wanted.resolution() == cost_to_go_.resolution())
@@ -166,6 +176,7 @@ bool GuidePolicy::path_clear(const OccupancyMap& map, const Eigen::Vector2d& her
 /// guide led round: all else changes no path.
 void GuidePolicy::choose_standing(const WorldSnapshot& world, const Eigen::Vector2d& here, bool same_goal) {
   find_standing(world, standing_);
+  for (StandingDisc& disc : standing_) disc.radius += saved_;  // they may turn, or go: the disc keeps away
   corners_.clear();
   if (same_goal) cost_to_go_.shortest_path(here, corners_);
   const auto matters = [&](const StandingDisc& disc) {

@@ -23,6 +23,9 @@ struct GuideNeeds {
   }
 };
 
+/// The guide for a robot, by its size and by what its method wants.
+[[nodiscard]] CostToGo make_guide(const AgentParameters& parameters, const GuideNeeds& needs);
+
 class GuidePolicy {
  public:
   GuidePolicy(const AgentParameters& parameters, const GuideNeeds& needs, double time);
@@ -74,6 +77,7 @@ class GuidePolicy {
   std::vector<Eigen::Vector2d> corners_;  // [m] kept for its memory
   std::vector<StandingDisc> standing_;    // likewise
   double max_speed_;                      // [m/s]
+  double saved_;                          // [m] by which heading along the path makes the robot narrower
   double beside_;                         // [m] what stands so far beside the path matters too
   std::optional<Eigen::Vector2d> goal_;   // [m] that the guide stands for
   bool cut_off_ = false;

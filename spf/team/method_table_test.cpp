@@ -32,6 +32,12 @@ class FieldLister {
   void operator()(const char* name, const Choice& value, const char* /*what*/) {
     fields_[prefix_ + name] = enum_name(value);
   }
+  void values(const char* name, const std::vector<Eigen::Vector2d>& points, const char* /*unit*/,
+              Range /*range*/, const char* /*what*/) {
+    std::ostringstream text;
+    for (const Eigen::Vector2d& point : points) text << std::hexfloat << point.x() << " " << point.y() << ";";
+    fields_[prefix_ + name] = text.str();
+  }
   template <class Parameters>
   void group(const char* name, const Parameters& nested) {
     const std::string outer = prefix_;

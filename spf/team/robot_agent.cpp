@@ -19,7 +19,7 @@ namespace {
 
 AgentParameters within_drive(AgentParameters parameters) {
   parameters.robot = spf::within_drive(parameters.robot);
-  return parameters;
+  return settled(std::move(parameters));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "spf/math/plane.hpp"
 #include "spf/trajectory/constant_acceleration.hpp"
 
 namespace spf {
@@ -22,7 +23,8 @@ Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d&
 }  // namespace
 
 Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
-                              const RollOutSettings& settings, double pace, double speed_now) {
+                              const RollOutSettings& settings, double pace, double speed_now,
+                              const Eigen::Vector2d* ahead) {
   std::optional<Eigen::Vector2d> on_path;
   if (settings.passage != nullptr) on_path = settings.passage->direction(position_world, speed_now);
   const Eigen::Vector2d direction = on_path ? *on_path : guide.direction(position_world);
@@ -34,7 +36,13 @@ Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostT
                               : cost;
   // The velocity v at the end of a step, from step * v + v^2 / (2 acceleration) = distance: the step and
   // stopping from v end at the goal. It does not pass the goal within the step either.
-  const double acceleration = settings.max_acceleration;
+  double acceleration = settings.max_acceleration;
+  if (ahead != nullptr) {
+    // The arc to a point that lies off the heading by an angle has a curvature of 2 sin(angle) / distance;
+    // with v^2 = 2 b distance, b the braking, it takes 4 b sin(angle) across.
+    const double across = 4.0 * cross(*ahead, direction);
+    acceleration /= std::sqrt(1.0 + across * across);
+  }
   const double stoppable =
       acceleration *
       (std::sqrt(settings.step * settings.step + 2.0 * distance / acceleration) - settings.step);
@@ -69,6 +77,7 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Hea
     const auto at = static_cast<std::size_t>(k);
     const Eigen::Vector2d position = result.position_world[at];
     const Eigen::Vector2d velocity = result.velocity_world[at];
+    const Eigen::Vector2d ahead = settings.steering != nullptr ? steered.ahead() : Eigen::Vector2d::UnitX();
     const bool goes_on = k * settings.step >= primitive.until - 1e-9;
     if (goes_on) {
       const bool entering = first || k == 0;
@@ -77,7 +86,8 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Hea
         case MotionPrimitive::Then::goal:
           if (entering) follow = primitive.pace < 1.0 || narrow || guide.cost_to_go(position) < near;
           if (entering || follow || k % 5 == 0)
-            target = goal_velocity(position, guide, settings, primitive.pace, velocity.norm());
+            target = goal_velocity(position, guide, settings, primitive.pace, velocity.norm(),
+                                   settings.steering != nullptr ? &ahead : nullptr);
           break;
         case MotionPrimitive::Then::hold:
           break;

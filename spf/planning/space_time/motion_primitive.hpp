@@ -50,10 +50,11 @@ struct RollOutSettings {
 
 /// Velocity towards the goal from a position: along the guide at max_speed, slower where the robot has to
 /// stop at the goal. `pace` [1] of max_speed; `speed_now` [m/s] tells
-/// how early a turn has to begin.
+/// how early a turn has to begin. `ahead`: unit vector of the heading of a robot that steers, which brakes
+/// the less the more it has to turn meanwhile; null: it moves every way.
 [[nodiscard]] Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
                                             const RollOutSettings& settings, double pace = 1.0,
-                                            double speed_now = 0.0);
+                                            double speed_now = 0.0, const Eigen::Vector2d* ahead = nullptr);
 
 /// Rolls a primitive out from a head state (its acceleration is not continued). `heading`: of a robot that
 /// steers, which turns towards each velocity instead of taking it up at once.

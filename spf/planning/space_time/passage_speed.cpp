@@ -33,22 +33,28 @@ double path_sigma(double static_sigma, double position_sigma, double speed, doub
 }
 
 PassageSpeed::PassageSpeed(const SpaceTimeParameters& parameters, const RobotParameters& robot)
-    : parameters_{parameters}, robot_{robot} {
+    : parameters_{parameters}, robot_{robot}, footprint_{robot} {
   path_.reserve(kCorners);
   legs_.reserve(kCorners);
   marks_.reserve(kCorners + static_cast<std::size_t>(std::min(reach() / (kSpacing * robot_.radius), 1e4)));
 }
 
-PassageSpeed::Room PassageSpeed::room_at(const PlanRequest& request,
-                                         const Eigen::Vector2d& position_world) const {
+/// For a robot that heads along `ahead`, the unit vector of the path.
+PassageSpeed::Room PassageSpeed::room_at(const PlanRequest& request, const Eigen::Vector2d& position_world,
+                                         const Eigen::Vector2d& ahead) const {
   const OccupancyMap& map = *request.world.map;
-  const double wanted = robot_.radius + map.margin(parameters_.static_margin);
+  const double margin = map.margin(parameters_.static_margin);
+  const auto distance = [&map](const Eigen::Vector2d& point) { return map.exact_distance(point); };
   Room room;
-  room.at_surface = map.distance(position_world) - wanted;
-  if (room.at_surface < robot_.radius) room.at_surface = map.exact_distance(position_world) - wanted;
+  room.at_surface = map.distance(position_world) - (robot_.radius + margin);
+  if (room.at_surface < robot_.radius)
+    room.at_surface =
+        footprint_.is_disc()
+            ? map.exact_distance(position_world) - (robot_.radius + margin)
+            : footprint_.clearance(position_world, ahead, robot_.radius + margin, distance) - margin;
   for (const StandingDisc& disc : request.guide->standing()) {
-    const double size = (disc.position_world - position_world).norm() - disc.radius - robot_.radius -
-                        parameters_.static_margin;
+    const double size = (disc.position_world - position_world).norm() - disc.radius -
+                        footprint_.half_width() - parameters_.static_margin;
     if (size >= room.at_standing) continue;
     room.at_standing = size;
     room.beside = &disc;
@@ -77,7 +83,7 @@ double PassageSpeed::reach() const {
   return robot_.max_speed * (parameters_.horizon + robot_.max_speed / robot_.max_acceleration);
 }
 
-/// Calls look(position) along the path until it returns false, as far as the robot can come.
+/// Calls look(position, unit vector along the path) until it returns false, as far as the robot can come.
 template <class Look>
 void PassageSpeed::look_along(const Look& look) const {
   const double spacing = kSpacing * robot_.radius;
@@ -86,8 +92,9 @@ void PassageSpeed::look_along(const Look& look) const {
   for (std::size_t i = 1; i < path_.size() && ahead < far; ++i) {
     const Eigen::Vector2d leg = path_[i] - path_[i - 1];
     const int parts = std::max(1, static_cast<int>(std::ceil(std::min(leg.norm() / spacing, kMostParts))));
+    const Eigen::Vector2d along = leg.normalized();
     for (int part = 1; part <= parts && ahead < far; ++part) {
-      if (!look(Eigen::Vector2d{path_[i - 1] + leg * (static_cast<double>(part) / parts)})) return;
+      if (!look(Eigen::Vector2d{path_[i - 1] + leg * (static_cast<double>(part) / parts)}, along)) return;
       ahead += leg.norm() / parts;
     }
   }
@@ -102,13 +109,13 @@ void PassageSpeed::prepare(const PlanRequest& request) {
   guide.shortest_path(request.head.position_world, path_);
   bool narrow = request.give_way.has_value();
   if (!narrow)
-    look_along([&](const Eigen::Vector2d& here) {
-      narrow = straight_speed(request, room_at(request, here).least()) < robot_.max_speed;
+    look_along([&](const Eigen::Vector2d& here, const Eigen::Vector2d& ahead) {
+      narrow = straight_speed(request, room_at(request, here, ahead).least()) < robot_.max_speed;
       return !narrow;
     });
   if (!narrow) return;
-  look_along([&](const Eigen::Vector2d& here) {
-    const Room room = room_at(request, here);
+  look_along([&](const Eigen::Vector2d& here, const Eigen::Vector2d& ahead) {
+    const Room room = room_at(request, here, ahead);
     const double cost = guide.cost_to_go(here);
     marks_.push_back({here, marks_.empty() ? cost : std::min(cost, marks_.back().cost),
                       straight_speed(request, room.least()), room});

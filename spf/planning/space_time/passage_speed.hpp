@@ -12,6 +12,7 @@
 
 #include "spf/planning/planner.hpp"
 #include "spf/planning/space_time/space_time_parameters.hpp"
+#include "spf/robot/footprint.hpp"
 #include "spf/world/standing.hpp"
 
 namespace spf {
@@ -77,7 +78,8 @@ class PassageSpeed {
   };
   [[nodiscard]] double reach() const;
   void keep_legs();
-  [[nodiscard]] Room room_at(const PlanRequest& request, const Eigen::Vector2d& position_world) const;
+  [[nodiscard]] Room room_at(const PlanRequest& request, const Eigen::Vector2d& position_world,
+                             const Eigen::Vector2d& ahead) const;
   [[nodiscard]] double straight_speed(const PlanRequest& request, double room) const;
   template <class Look>
   void look_along(const Look& look) const;
@@ -86,6 +88,7 @@ class PassageSpeed {
 
   SpaceTimeParameters parameters_;
   RobotParameters robot_;
+  Footprint footprint_;
   std::vector<Eigen::Vector2d> path_;
   std::vector<Leg> legs_;    // of the path, as far as the robot can come
   std::vector<Mark> marks_;  // by falling cost, at most a third of the radius apart

@@ -5,37 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "spf/math/normal_distribution.hpp"
-
 namespace spf {
 namespace {
-
-Eigen::Vector2d between(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double share) {
-  return (1.0 - share) * from + share * to;
-}
-
-/// Calls look(position, speed) along a roll-out and along the path on which the robot then stops, until it
-/// returns false, so often that no surface lies between two positions that are both free of it.
-template <class Look>
-void look_along(const RollOut& roll_out, const Eigen::Vector2d& stop, double spacing, const Look& look) {
-  const auto look_between = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to, double speed,
-                                double end_speed, int least_parts) {
-    const int parts = std::max(least_parts, static_cast<int>(std::ceil((to - from).norm() / spacing)));
-    for (int i = 1; i <= parts; ++i) {
-      const double share = static_cast<double>(i) / parts;
-      if (!look(between(from, to, share), speed + share * (end_speed - speed))) return false;
-    }
-    return true;
-  };
-  double speed = roll_out.velocity_world[0].norm();
-  for (int k = 1; k <= roll_out.steps; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const double next = roll_out.velocity_world[at].norm();
-    if (!look_between(roll_out.position_world[at - 1], roll_out.position_world[at], speed, next, 1)) return;
-    speed = next;
-  }
-  look_between(roll_out.position_world[static_cast<std::size_t>(roll_out.steps)], stop, speed, 0.0, 2);
-}
 
 constexpr double kProgress = 0.3;   // [1] of the radius
 constexpr double kElsewhere = 3.0;  // [1] likewise: so much farther it has another path, or was pushed off
@@ -46,12 +17,11 @@ constexpr double kEarlyProgress =
 constexpr double kBlockedStand = 4.0;  // [1] of stand_bonus, before something that stands in the way
 constexpr int kProgressSamples = 3;
 // A gap is no wider later on. A robot that has stood before one takes more of its risk, little by little.
-constexpr double kHalvedAfter = 2.0;   // [s]
-constexpr double kLeastPrice = 0.02;   // [1] of the price of the risk of surfaces
-constexpr double kNoRoomSigmas = 1.5;  // [1] nearer to a surface than that, the price never falls
-constexpr double kPauseTime = 0.5;     // [s] without a call: the robot did not wait of its own accord
-constexpr double kCreepSpeed = 0.15;   // [1] of max_speed
-constexpr double kHasteCost = 1e-3;    // [1] of collision_cost, at max_speed where none at all is safe
+constexpr double kHalvedAfter = 2.0;  // [s]
+constexpr double kLeastPrice = 0.02;  // [1] of the price of the risk of surfaces
+constexpr double kPauseTime = 0.5;    // [s] without a call: the robot did not wait of its own accord
+constexpr double kCreepSpeed = 0.15;  // [1] of max_speed
+constexpr double kHasteCost = 1e-3;   // [1] of collision_cost, at max_speed where none at all is safe
 // Among many people some risk is always ahead. Beyond so many encounters within the horizon its price falls.
 constexpr double kCrowd = 0.285;         // [1]
 constexpr double kCrowdPower = 8.0;      // [1] how suddenly
@@ -81,41 +51,11 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
                   kCrowdMemory * parameters_.horizon},
       sight_{robot_, parameters_.static_margin},
       passage_{parameters_, robot_},
+      surfaces_{parameters_, robot_},
       smoother_{parameters_, planner, robot_},
       judge_{validated(planner), robot_} {
   settings_ = settings_of(parameters_, robot_, risk_.steps());
-  if (steers(robot_.drive)) steering_.emplace(robot_);
-}
-
-/// Static surfaces: the probability that the error across the path reaches one. A slow robot tracks its path
-/// more exactly, so it may pass where a fast one may not. It is not discounted: a wall
-/// will still be there, and a discounted risk would be put off for ever. Not exact from `enough` on.
-double SpaceTimePlanner::surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
-                                        const PlanRequest& request, double enough) const {
-  const OccupancyMap& map = *request.world.map;
-  const double wanted_clearance = robot_.radius + map.margin(parameters_.static_margin);
-  const double full_softness = std::hypot(parameters_.static_sigma, request.position_sigma);
-  double least_clearance = std::numeric_limits<double>::infinity();
-  double least_sigmas = kSurfaceSigmas;
-  double chance = 0.0;
-  look_along(roll_out, stop, robot_.radius, [&](const Eigen::Vector2d& position, double speed) {
-    double clearance = map.distance(position) - wanted_clearance;
-    if (clearance > kSurfaceSigmas * full_softness) return true;
-    const double sigma =
-        path_sigma(parameters_.static_sigma, request.position_sigma, speed, robot_.max_speed);
-    // exact_distance() is no less.
-    if (clearance >= 0.0 && clearance >= least_sigmas * sigma) return true;
-    clearance = map.exact_distance(position) - wanted_clearance;
-    least_clearance = std::min(least_clearance, clearance);
-    least_sigmas = std::min(least_sigmas, clearance / sigma);
-    if (least_sigmas >= kSurfaceSigmas) return true;
-    // The cost grows with depth without limit, so that a robot inside the margin is led out of it.
-    const double depth = std::max(0.0, -least_clearance) / wanted_clearance;
-    const double price = least_sigmas > kNoRoomSigmas ? surface_price_ : 1.0;
-    chance = std::max(chance, price * normal_tail(least_sigmas) + depth);
-    return chance <= enough;
-  });
-  return chance;
+  if (steers(robot_)) steering_.emplace(robot_);
 }
 
 SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
@@ -152,7 +92,7 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   const Eigen::Vector2d stop = tail + velocity * (velocity.norm() / (2.0 * settings_.max_acceleration));
   // By the time a new plan can brake the robot, it must be able to stand within what it has seen.
   double left = (enough - score.time) / std::max(parameters_.collision_cost, 1e-9);
-  double static_chance = surface_chance(roll_out, stop, request, left);
+  double static_chance = surfaces_.chance(roll_out, stop, request, left);
   if (static_chance <= left)
     static_chance += sight_.blind_share(roll_out.position_world[soon], roll_out.velocity_world[soon]);
   left -= static_chance;
@@ -298,7 +238,7 @@ void SpaceTimePlanner::update_surface_price(const PlanRequest& request) {
     progress_.waits_since = request.time;
   progress_.goal = request.goal_world;
   const double waited = (request.time - progress_.waits_since) / kHalvedAfter;
-  surface_price_ = std::max(kLeastPrice, 1.0 / (1.0 + waited * waited));
+  surfaces_.set_price(std::max(kLeastPrice, 1.0 / (1.0 + waited * waited)));
 }
 
 /// Chosen on crowds made by `spf crowd` and on T2-hard, which it leaves as it was.

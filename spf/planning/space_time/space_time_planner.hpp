@@ -13,6 +13,7 @@
 #include "spf/planning/space_time/motion_primitive.hpp"
 #include "spf/planning/space_time/space_time_parameters.hpp"
 #include "spf/planning/space_time/space_time_risk.hpp"
+#include "spf/planning/space_time/surface_risk.hpp"
 #include "spf/planning/space_time/trajectory_smoother.hpp"
 #include "spf/planning/steering.hpp"
 #include "spf/robot/robot_parameters.hpp"
@@ -41,8 +42,6 @@ class SpaceTimePlanner final : public Planner {
     [[nodiscard]] double total() const { return time + risk; }
   };
   [[nodiscard]] Score score(const RollOut& roll_out, const PlanRequest& request, double enough) const;
-  [[nodiscard]] double surface_chance(const RollOut& roll_out, const Eigen::Vector2d& stop,
-                                      const PlanRequest& request, double enough) const;
   void consider(const MotionPrimitive& primitive, const PlanRequest& request, PlanResult& result,
                 double bonus = 0.0);
   void update_surface_price(const PlanRequest& request);
@@ -62,12 +61,13 @@ class SpaceTimePlanner final : public Planner {
 
   SpaceTimeParameters parameters_;
   RobotParameters robot_;
-  std::optional<Steering> steering_;  // of a robot that cannot move sideways
+  std::optional<Steering> steering_;  // of a robot that drives along its heading
   RollOutSettings settings_;          // its max_speed is that of the plan under way
   SpaceTimeRisk risk_;
   EncounterRate encounters_;
   SightLimit sight_;
   PassageSpeed passage_;
+  SurfaceRisk surfaces_;
   /// How the robot gets on.
   struct Progress {
     Eigen::Vector2d goal = Eigen::Vector2d::Zero();                // [m]
@@ -77,7 +77,6 @@ class SpaceTimePlanner final : public Planner {
         std::numeric_limits<double>::infinity();  // [s] no faster than a creep, or to and fro
   };
   Progress progress_;
-  double surface_price_ = 1.0;  // [1] of the risk of surfaces
   RollOut trial_;
   RollOut best_;
   Score best_score_;
