@@ -2,6 +2,7 @@
 // their checks, so that names, units and limits stand in one place.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -22,6 +23,8 @@ void assign_number(py::handle from, const std::string& key, const char* unit, Ra
 void assign_number(py::handle from, const std::string& key, const char* unit, Range range, int& value);
 void assign_points(py::handle from, const std::string& key, const char* unit, Range range,
                    std::vector<Eigen::Vector2d>& points);
+/// As a list, which compares, and prints, as the other values do.
+[[nodiscard]] std::vector<std::array<double, 2>> pairs_of(const std::vector<Eigen::Vector2d>& points);
 void assign_choice(py::handle from, const std::string& key, bool& value);
 /// Index of a name.
 [[nodiscard]] std::size_t name_index(py::handle from, const std::string& key,
@@ -80,10 +83,10 @@ class PropertyMaker {
               const char* what) {
     const std::ptrdiff_t offset = offset_of(points);
     const std::string key = type_name_ + "." + name;
-    const std::string text = std::string{what} + "; points of two numbers [" + unit + "], " + to_text(range);
+    const std::string text = std::string{what} + "; points [" + unit + "], list of " + to_text(range);
     type_.def_property(
         name,
-        [offset](const T& self) { return to_array(member<std::vector<Eigen::Vector2d>>(self, offset)); },
+        [offset](const T& self) { return pairs_of(member<std::vector<Eigen::Vector2d>>(self, offset)); },
         [offset, key, unit = std::string{unit}, range](T& self, const py::object& from) {
           assign_points(from, key, unit.c_str(), range, member<std::vector<Eigen::Vector2d>>(self, offset));
         },

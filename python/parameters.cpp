@@ -70,6 +70,12 @@ void assign_points(py::handle from, const std::string& key, const char* unit, Ra
   points = std::move(found);
 }
 
+std::vector<std::array<double, 2>> pairs_of(const std::vector<Eigen::Vector2d>& points) {
+  std::vector<std::array<double, 2>> pairs;
+  for (const Eigen::Vector2d& point : points) pairs.push_back({point.x(), point.y()});
+  return pairs;
+}
+
 void assign_choice(py::handle from, const std::string& key, bool& value) {
   const bool numpy = py::hasattr(from, "dtype") && py::str(from.attr("dtype")).cast<std::string>() == "bool";
   if (!py::isinstance<py::bool_>(from) && !numpy) refuse(key, from, "must be True or False");

@@ -57,10 +57,10 @@ class RobotParameters:
     @width.setter
     def width(self, value: float) -> None: ...
     @property
-    def footprint(self) -> ndarray:
-        """corners of the robot's outline, a convex polygon around its centre, in the body frame; points of two numbers [m], [-5, 5]"""
+    def footprint(self) -> list:
+        """corners of the robot's outline, a convex polygon around its centre, in the body frame; points [m], list of [-5, 5]"""
     @footprint.setter
-    def footprint(self, value: ndarray) -> None: ...
+    def footprint(self, value: list) -> None: ...
     @property
     def max_speed(self) -> float:
         """largest planned speed of the centre [m/s], [0.01, 20]"""
