@@ -20,6 +20,12 @@ Eigen::Vector2d approach(const Eigen::Vector2d& velocity, const Eigen::Vector2d&
   return velocity + difference * (change / size);
 }
 
+/// A car that has just passed its goal stands there: to come nearer it would have to drive a circle.
+bool missed(const Eigen::Vector2d& goal, const Eigen::Vector2d& ahead, const RollOutSettings& settings) {
+  return !settings.steering->turns_on_the_spot() && goal.dot(ahead) <= 0.0 &&
+         goal.norm() < settings.max_speed * settings.step;
+}
+
 }  // namespace
 
 Eigen::Vector2d goal_velocity(const Eigen::Vector2d& position_world, const CostToGo& guide,
@@ -101,6 +107,8 @@ void roll_out(const MotionPrimitive& primitive, const FlatState& head, const Hea
       const double gap = (guide.goal_used() - position).norm();
       if (to_goal && settings.goal_heading && gap < kArrived * settings.max_speed * settings.step)
         settings.steering->turn(*settings.goal_heading, settings.step, steered);
+      else if (to_goal && missed(guide.goal_used() - position, ahead, settings))
+        settings.steering->step(Eigen::Vector2d::Zero(), Gear::forward, settings.step, steered);
       else
         settings.steering->step(target, to_goal ? Gear::forward : primitive.gear, settings.step, steered);
       result.position_world[at + 1] = steered.position_world;
