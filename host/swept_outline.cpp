@@ -11,7 +11,7 @@ namespace spf::host {
 namespace {
 
 constexpr double kStraight = 1e-6;  // [1/m] less is straight
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNotMet = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -34,7 +34,7 @@ bool SweptOutline::holds(const Eigen::Vector2d& point) const {
 
 /// Seen from the outline, the point comes along a line.
 double SweptOutline::straight_distance_to(const Eigen::Vector2d& point) const {
-  double nearest = kNever;
+  double nearest = kNotMet;
   for (std::size_t i = 0; i < size_; ++i) {
     const Eigen::Vector2d side = corners_[i + 1 < size_ ? i + 1 : 0] - corners_[i];
     const Eigen::Vector2d offset = point - corners_[i];
@@ -53,7 +53,7 @@ double SweptOutline::straight_distance_to(const Eigen::Vector2d& point) const {
 double SweptOutline::turn_around(const Eigen::Vector2d& middle, double side,
                                  const Eigen::Vector2d& point) const {
   const Eigen::Vector2d arm = point - middle;
-  double least = kNever;
+  double least = kNotMet;
   for (std::size_t i = 0; i < size_; ++i) {
     const Eigen::Vector2d from = corners_[i] - middle;
     const Eigen::Vector2d along = corners_[i + 1 < size_ ? i + 1 : 0] - corners_[i];
@@ -75,14 +75,14 @@ double SweptOutline::turn_around(const Eigen::Vector2d& middle, double side,
 }
 
 double SweptOutline::distance_to(const Eigen::Vector2d& point) const {
-  if (holds(point)) return direction_.dot(point) > 0.0 ? 0.0 : kNever;
+  if (holds(point)) return direction_.dot(point) > 0.0 ? 0.0 : kNotMet;
   if (std::abs(curvature_) < kStraight) return straight_distance_to(point);
   const Eigen::Vector2d middle = Eigen::Vector2d{-direction_.y(), direction_.x()} / curvature_;
   return turn_around(middle, curvature_ > 0.0 ? 1.0 : -1.0, point) / std::abs(curvature_);
 }
 
 double SweptOutline::turn_to(const Eigen::Vector2d& point, bool left) const {
-  return holds(point) ? kNever : turn_around(Eigen::Vector2d::Zero(), left ? 1.0 : -1.0, point);
+  return holds(point) ? kNotMet : turn_around(Eigen::Vector2d::Zero(), left ? 1.0 : -1.0, point);
 }
 
 }  // namespace spf::host
