@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/arc_centre_test.hpp"
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
 
@@ -12,14 +13,6 @@ namespace spf::host {
 namespace {
 
 constexpr double kNeverTouches = std::numeric_limits<double>::infinity();
-
-/// The centre after a distance along the arc, step by step.
-Eigen::Vector2d centre_after(double distance, double heading, double curvature) {
-  if (curvature == 0.0) return distance * Eigen::Vector2d{std::cos(heading), std::sin(heading)};
-  const double turned = heading + curvature * distance;
-  return Eigen::Vector2d{std::sin(turned) - std::sin(heading), std::cos(heading) - std::cos(turned)} /
-         curvature;
-}
 
 double searched_distance(const Eigen::Vector2d& point, double heading, double curvature, double radius) {
   constexpr double kStep = 1e-3;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/arc_centre_test.hpp"
 #include "spf/math/angles.hpp"
 #include "spf/math/random_stream.hpp"
 
@@ -22,13 +23,6 @@ Footprint rectangle() {
 double gap(const Footprint& outline, const Eigen::Vector2d& centre, double heading,
            const Eigen::Vector2d& point) {
   return outline.distance_to(Eigen::Rotation2Dd{-heading} * (point - centre));
-}
-
-Eigen::Vector2d centre_after(double distance, double direction, double curvature) {
-  if (curvature == 0.0) return distance * Eigen::Vector2d{std::cos(direction), std::sin(direction)};
-  const double turned = direction + curvature * distance;
-  return Eigen::Vector2d{std::sin(turned) - std::sin(direction), std::cos(direction) - std::cos(turned)} /
-         curvature;
 }
 
 TEST(SweptOutline, FindsTheFirstTouchThatASearchFinds) {

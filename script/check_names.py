@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Fails where two sources of a room give one name to different things in their anonymous namespaces. The sanitizers' builds
-and all tests compile a room in batches of sources, in which such names meet; which ones meet changes with every new file.
+"""Fails where two sources of a room give one name to different things in their anonymous namespaces, or a source and a header
+of its room give one to a constant or a type. The sanitizers' builds and all tests compile a room in batches of sources, in
+which such names meet; which ones meet changes with every new file.
 
 Needs Universal Ctags; exit status 77 without it, 1 where SPF_REQUIRE_TOOLS is 1."""
+import re
 import sys
 from collections import defaultdict
 from pathlib import Path
@@ -22,17 +24,40 @@ def batch_of(path):
     return room, path.endswith("_test.cpp")
 
 
+def types_of(signature):
+    """A signature as the compiler tells functions apart: without its parameters' names and defaults."""
+    types, depth, start = [], 0, 1
+    for at, letter in enumerate(signature):
+        depth += (letter in "(<[{") - (letter in ")>]}")
+        if (letter == "," and depth == 1) or (letter == ")" and depth == 0):
+            typed = signature[start:at].partition("=")[0].strip()
+            types.append(re.sub(r"(?<=[\w>&*] )\s*\w+$|(?<=[&*])\w+$", "", typed).replace(" ", ""))
+            start = at + 1
+    return ",".join(types)
+
+
+def names_in(root, files, kinds):
+    """(tag, its namespace, whether that is an anonymous one within) for all that stands in a namespace."""
+    for tag in tags_of(root, files, kinds) if files else []:
+        if tag.get("scopeKind") == "namespace":
+            outer, _, inner = tag["scope"].rpartition("::")
+            hidden = inner.startswith("__anon")
+            yield tag, outer if hidden else tag["scope"], hidden
+
+
 def check(root):
-    """One sentence for each name that two sources give."""
-    names = [name for name in files_of(root) if name.endswith(".cpp") and batch_of(name)]
+    """One sentence for each name that two files give."""
+    files = [name for name in files_of(root) if name.endswith((".cpp", ".hpp")) and batch_of(name)]
     places = defaultdict(dict)
-    for tag in tags_of(root, names, "cfsuveg") if names else []:
-        if not tag.get("scope", "").rpartition("::")[2].startswith("__anon") or tag.get("scopeKind") != "namespace":
-            continue
-        # Functions may share a name as long as their parameters differ.
-        what = (tag["name"], tag.get("signature", "").replace(" ", ""))
-        namespace = tag["scope"].rpartition("::")[0]
-        places[batch_of(tag["path"]), namespace, what].setdefault(tag["path"], tag["line"])
+    for tag, namespace, hidden in names_in(root, [name for name in files if name.endswith(".cpp")], "cfsuveg"):
+        if hidden:  # functions may share a name as long as their parameters differ
+            what = (tag["name"], types_of(tag.get("signature", "")))
+            places[batch_of(tag["path"]), namespace, what].setdefault(tag["path"], tag["line"])
+    for tag, namespace, hidden in names_in(root, [name for name in files if name.endswith(".hpp")], "csuvg"):
+        for test in (False, True):
+            place = (batch_of(tag["path"])[0], test), namespace, (tag["name"], "")
+            if not hidden and place in places:
+                places[place].setdefault(tag["path"], tag["line"])
     return [f"{'room' if not test else 'tests of room'} {room}: '{name}' is declared in "
             + " and ".join(f"{path}:{line}" for path, line in found.items())
             for ((room, test), _, (name, _)), found in sorted(places.items()) if len(found) > 1]

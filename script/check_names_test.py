@@ -19,7 +19,7 @@ class Names(unittest.TestCase):
     def breaches_of(self, **sources):
         with tempfile.TemporaryDirectory() as scratch:
             for name, text in sources.items():
-                path = Path(scratch) / (name.replace("__", "/") + ".cpp")
+                path = Path(scratch) / (name.replace("__", "/") + (".hpp" if name.endswith("header") else ".cpp"))
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text, encoding="utf-8")
             return check_names.check(Path(scratch))
@@ -37,11 +37,30 @@ class Names(unittest.TestCase):
     def test_other_rooms_never_meet(self):
         self.assertEqual(self.breaches_of(spf__planning__a=CONSTANT, spf__team__a=CONSTANT), [])
 
+    def test_a_constant_of_a_header_of_the_room(self):
+        public = "namespace spf {\ninline constexpr double kLimit = 1.0;\n}\n"
+        found = self.breaches_of(host__a=CONSTANT, host__some_header=public)
+        self.assertEqual(len(found), 1, found)
+        self.assertIn("host/some_header.hpp:2", found[0])
+        self.assertEqual(self.breaches_of(host__a=CONSTANT, sim__some_header=public), [])
+
     def test_functions_may_differ_by_their_parameters(self):
         one = "namespace {\ndouble area(double side) { return side * side; }\n}\n"
         other = "namespace {\ndouble area(double width, double height) { return width * height; }\n}\n"
         self.assertEqual(self.breaches_of(spf__map__a=one, spf__map__b=other), [])
         self.assertEqual(len(self.breaches_of(spf__map__a=one, spf__map__b=one)), 1)
+        for before, after in (("double side", "double edge"), ("double side", "double side = 1.0")):
+            self.assertEqual(len(self.breaches_of(spf__map__a=one, spf__map__b=one.replace(before, after))), 1)
+
+    def test_a_signature_without_the_names_of_its_parameters(self):
+        for signature, types in (
+                ("()", ""),
+                ("(double a, int b)", "double,int"),
+                ("(const Eigen::Vector2d& point, const std::map<int, double>& all = {})",
+                 "constEigen::Vector2d&,conststd::map<int,double>&"),
+                ("(double *out)", "double*"),
+                ("(std::vector<Box> boxes, Box)", "std::vector<Box>,Box")):
+            self.assertEqual(check_names.types_of(signature), types, signature)
 
     def test_members_and_public_names_are_free(self):
         member = "namespace {\nstruct %s {\n  double length = 1.0;\n};\n}\n"
