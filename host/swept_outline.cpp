@@ -17,27 +17,17 @@ constexpr double kNotMet = std::numeric_limits<double>::infinity();
 
 SweptOutline::SweptOutline(const Footprint& outline, double heading, const Eigen::Vector2d& direction,
                            double curvature)
-    : size_{outline.corners().size()}, direction_{direction}, curvature_{curvature} {
-  const Eigen::Vector2d ahead{std::cos(heading), std::sin(heading)};
-  const Eigen::Vector2d left{-ahead.y(), ahead.x()};
-  for (std::size_t i = 0; i < size_; ++i)
-    corners_[i] = outline.corners()[i].x() * ahead + outline.corners()[i].y() * left;
-}
-
-bool SweptOutline::holds(const Eigen::Vector2d& point) const {
-  for (std::size_t i = 0; i < size_; ++i) {
-    const Eigen::Vector2d side = corners_[i + 1 < size_ ? i + 1 : 0] - corners_[i];
-    if (cross(side, Eigen::Vector2d{point - corners_[i]}) < 0.0) return false;
-  }
-  return true;
-}
+    : polygon_{outline.placed(Eigen::Vector2d::Zero(), heading)},
+      direction_{direction},
+      curvature_{curvature} {}
 
 /// Seen from the outline, the point comes along a line.
 double SweptOutline::straight_distance_to(const Eigen::Vector2d& point) const {
   double nearest = kNotMet;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const Eigen::Vector2d side = corners_[i + 1 < size_ ? i + 1 : 0] - corners_[i];
-    const Eigen::Vector2d offset = point - corners_[i];
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    const LineSegment edge = polygon_.side(i);
+    const Eigen::Vector2d side = edge.to - edge.from;
+    const Eigen::Vector2d offset = point - edge.from;
     // point - distance * direction = corner + share * side
     const double across = cross(direction_, side);
     if (across == 0.0) continue;  // the sides beside it are met instead
@@ -54,9 +44,10 @@ double SweptOutline::turn_around(const Eigen::Vector2d& middle, double side,
                                  const Eigen::Vector2d& point) const {
   const Eigen::Vector2d arm = point - middle;
   double least = kNotMet;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const Eigen::Vector2d from = corners_[i] - middle;
-    const Eigen::Vector2d along = corners_[i + 1 < size_ ? i + 1 : 0] - corners_[i];
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    const LineSegment edge = polygon_.side(i);
+    const Eigen::Vector2d from = edge.from - middle;
+    const Eigen::Vector2d along = edge.to - edge.from;
     // |from + share * along| = |arm|
     const double a = along.squaredNorm();
     const double b = from.dot(along);
@@ -75,14 +66,14 @@ double SweptOutline::turn_around(const Eigen::Vector2d& middle, double side,
 }
 
 double SweptOutline::distance_to(const Eigen::Vector2d& point) const {
-  if (holds(point)) return direction_.dot(point) > 0.0 ? 0.0 : kNotMet;
+  if (polygon_.holds(point)) return direction_.dot(point) > 0.0 ? 0.0 : kNotMet;
   if (std::abs(curvature_) < kStraight) return straight_distance_to(point);
   const Eigen::Vector2d middle = Eigen::Vector2d{-direction_.y(), direction_.x()} / curvature_;
   return turn_around(middle, curvature_ > 0.0 ? 1.0 : -1.0, point) / std::abs(curvature_);
 }
 
 double SweptOutline::turn_to(const Eigen::Vector2d& point, bool left) const {
-  return holds(point) ? kNotMet : turn_around(Eigen::Vector2d::Zero(), left ? 1.0 : -1.0, point);
+  return polygon_.holds(point) ? kNotMet : turn_around(Eigen::Vector2d::Zero(), left ? 1.0 : -1.0, point);
 }
 
 }  // namespace spf::host

@@ -4,9 +4,6 @@
 
 #include <Eigen/Core>
 
-#include <array>
-#include <cstddef>
-
 #include "spf/robot/footprint.hpp"
 
 namespace spf::host {
@@ -25,13 +22,11 @@ class SweptOutline {
   [[nodiscard]] double turn_to(const Eigen::Vector2d& point, bool left) const;
 
  private:
-  [[nodiscard]] bool holds(const Eigen::Vector2d& point) const;
   [[nodiscard]] double straight_distance_to(const Eigen::Vector2d& point) const;
   [[nodiscard]] double turn_around(const Eigen::Vector2d& middle, double side,
                                    const Eigen::Vector2d& point) const;
 
-  std::array<Eigen::Vector2d, Footprint::kMostCorners> corners_;  // counterclockwise
-  std::size_t size_;
+  ConvexPolygon polygon_;
   Eigen::Vector2d direction_;
   double curvature_;  // [1/m]
 };

@@ -1,11 +1,10 @@
-// Robots with corners, as they really are: a convex polygon at a pose, and its motion over one step. Frame:
-// world [m].
+// Robots with corners, as they really are: convex polygons that move and turn over a step. Frame: world [m].
 #pragma once
 
 #include <Eigen/Core>
 
-#include <array>
-#include <cstddef>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "sim/contact.hpp"
@@ -13,30 +12,10 @@
 
 namespace spf::sim {
 
-/// A convex polygon at a pose. Distances are 0 where they touch or overlap.
-class PlacedPolygon {
- public:
-  /// A disc has no corners: its outline must have.
-  PlacedPolygon(const Footprint& outline, const Eigen::Vector2d& position, double heading);
-  explicit PlacedPolygon(const Box& box);
-
-  [[nodiscard]] bool holds(const Eigen::Vector2d& point) const;
-  [[nodiscard]] double distance_to(const Eigen::Vector2d& point) const;
-  [[nodiscard]] double distance_to(const Segment& segment) const;
-  [[nodiscard]] double distance_to(const PlacedPolygon& other) const;
-  /// Its least depth inside a border; negative where it is beyond.
-  [[nodiscard]] double depth_in(const Box& border) const;
-
-  [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] const Eigen::Vector2d& corner(std::size_t i) const { return corners_[i]; }
-  [[nodiscard]] Segment side(std::size_t i) const {
-    return {corners_[i], corners_[i + 1 < size_ ? i + 1 : 0]};
-  }
-
- private:
-  std::array<Eigen::Vector2d, Footprint::kMostCorners> corners_;  // counterclockwise
-  std::size_t size_;
-};
+/// A box as a polygon.
+[[nodiscard]] ConvexPolygon polygon_of(const Box& box);
+/// The least depth of a polygon inside a border; negative where it is beyond.
+[[nodiscard]] double depth_inside(const ConvexPolygon& polygon, const Box& border);
 
 /// A robot with corners over one step: its centre moves along a line while it turns evenly.
 struct BodyMotion {
@@ -45,8 +24,8 @@ struct BodyMotion {
   double heading;  ///< [rad] at the beginning
   double turn;     ///< [rad] over the step
 
-  [[nodiscard]] PlacedPolygon at(double share) const {
-    return {*outline, centre.at(share), heading + share * turn};
+  [[nodiscard]] ConvexPolygon at(double share) const {
+    return outline->placed(centre.at(share), heading + share * turn);
   }
   /// No point of it moves farther over the step [m].
   [[nodiscard]] double reach() const {

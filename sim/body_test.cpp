@@ -57,7 +57,7 @@ TEST(Body, FindsTheFirstContactThatSamplingFinds) {
         surface.emplace_back(disc.center + disc.radius * Eigen::Vector2d{std::cos(2.0 * kPi * share),
                                                                          std::sin(2.0 * kPi * share)});
       for (const Box& box : scenario.boxes) {
-        const PlacedPolygon sides{box};
+        const ConvexPolygon sides = polygon_of(box);
         for (std::size_t s = 0; s < 4; ++s)
           surface.emplace_back(sides.side(s).from + share * (sides.side(s).to - sides.side(s).from));
       }
@@ -88,13 +88,13 @@ TEST(Body, FindsTheFirstContactThatSamplingFinds) {
 
 TEST(Body, KnowsItsDistanceFromAnotherAndTheBorder) {
   const Footprint outline{rectangle(0.8, 0.4)};
-  const PlacedPolygon one{outline, {0.0, 0.0}, 0.0};
-  EXPECT_NEAR(one.distance_to(PlacedPolygon{outline, {1.0, 0.0}, 0.0}), 0.2, 1e-12);
-  EXPECT_NEAR(one.distance_to(PlacedPolygon{outline, {1.0, 0.0}, kPi / 2.0}), 0.4, 1e-12);
-  EXPECT_EQ(one.distance_to(PlacedPolygon{outline, {0.5, 0.1}, 0.3}), 0.0);
-  EXPECT_EQ(one.distance_to(PlacedPolygon(Box{{-0.1, -0.1}, {0.1, 0.1}})), 0.0);
-  EXPECT_NEAR(one.depth_in({{-1.0, -1.0}, {1.0, 1.0}}), 0.6, 1e-12);
-  EXPECT_NEAR(one.depth_in({{-0.3, -1.0}, {1.0, 1.0}}), -0.1, 1e-12);
+  const ConvexPolygon one = outline.placed({0.0, 0.0}, 0.0);
+  EXPECT_NEAR(one.distance_to(outline.placed({1.0, 0.0}, 0.0)), 0.2, 1e-12);
+  EXPECT_NEAR(one.distance_to(outline.placed({1.0, 0.0}, kPi / 2.0)), 0.4, 1e-12);
+  EXPECT_EQ(one.distance_to(outline.placed({0.5, 0.1}, 0.3)), 0.0);
+  EXPECT_EQ(one.distance_to(polygon_of(Box{{-0.1, -0.1}, {0.1, 0.1}})), 0.0);
+  EXPECT_NEAR(depth_inside(one, Box{{-1.0, -1.0}, {1.0, 1.0}}), 0.6, 1e-12);
+  EXPECT_NEAR(depth_inside(one, Box{{-0.3, -1.0}, {1.0, 1.0}}), -0.1, 1e-12);
 }
 
 TEST(Body, IsWhatAScannerSees) {

@@ -141,18 +141,18 @@ std::optional<Contact> StaticShapes::first_contact(const Motion& motion, double 
   return first;
 }
 
-double StaticShapes::distance_to(const Shape& shape, const PlacedPolygon& outline) const {
+double StaticShapes::distance_to(const Shape& shape, const ConvexPolygon& outline) const {
   const auto index = static_cast<std::size_t>(shape.index);
-  if (shape.kind == ContactWith::box) return outline.distance_to(PlacedPolygon{boxes_[index]});
+  if (shape.kind == ContactWith::box) return outline.distance_to(polygon_of(boxes_[index]));
   if (shape.kind == ContactWith::disc)
     return outline.distance_to(discs_[index].center) - discs_[index].radius;
   return outline.distance_to(walls_[index]);
 }
 
-double StaticShapes::clearance(const PlacedPolygon& outline, const Eigen::Vector2d& centre, double radius,
+double StaticShapes::clearance(const ConvexPolygon& outline, const Eigen::Vector2d& centre, double radius,
                                double far) const {
   double nearest = far;
-  if (border_) nearest = std::min(nearest, outline.depth_in(*border_));
+  if (border_) nearest = std::min(nearest, depth_inside(outline, *border_));
   grid_.visit(centre, std::max(nearest, 0.0) + radius + reach_, [&](int shape) {
     nearest = std::min(nearest, distance_to(shapes_[static_cast<std::size_t>(shape)], outline));
   });
@@ -176,15 +176,16 @@ std::optional<Contact> StaticShapes::first_contact(const BodyMotion& motion) con
     first->position_world = motion.centre.at(*share);
   };
   if (border_)
-    consider(ContactWith::border, -1, [&](const PlacedPolygon& body) { return body.depth_in(*border_); });
+    consider(ContactWith::border, -1,
+             [&](const ConvexPolygon& body) { return depth_inside(body, *border_); });
   const double near = motion.outline->circumscribed_radius() + reach;
   grid_.visit(motion.centre.from, reach_ + near, [&](int number) {
     const Shape& shape = shapes_[static_cast<std::size_t>(number)];
-    consider(shape.kind, shape.index, [&](const PlacedPolygon& body) { return distance_to(shape, body); });
+    consider(shape.kind, shape.index, [&](const ConvexPolygon& body) { return distance_to(shape, body); });
   });
   outlines_.visit(motion.centre.from, near, [&](const Outlines::Piece& piece) {
     consider(piece.polygon < 0 ? ContactWith::map : ContactWith::polygon, piece.polygon,
-             [&](const PlacedPolygon& body) { return body.distance_to(piece.segment); });
+             [&](const ConvexPolygon& body) { return body.distance_to(piece.segment); });
   });
   return first;
 }

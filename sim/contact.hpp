@@ -10,6 +10,7 @@
 #include "sim/outlines.hpp"
 #include "sim/scenario.hpp"
 #include "sim/uniform_grid.hpp"
+#include "spf/math/convex_polygon.hpp"
 #include "spf/math/parameters.hpp"
 
 namespace spf {
@@ -63,7 +64,6 @@ struct Motion {
 /// Share of the step in [0, 1] at which two moving points are first nearer than `distance`.
 [[nodiscard]] std::optional<double> first_within(const Motion& a, const Motion& b, double distance);
 
-class PlacedPolygon;
 struct BodyMotion;
 
 /// Clearances to the static shapes of a scenario. Far shapes are skipped by means of a grid of their
@@ -82,7 +82,7 @@ class StaticShapes {
   [[nodiscard]] std::optional<Contact> first_contact(const Motion& motion, double radius) const;
 
   // Likewise of a robot with corners, whose outline lies within `radius` [m] of `centre`.
-  [[nodiscard]] double clearance(const PlacedPolygon& outline, const Eigen::Vector2d& centre, double radius,
+  [[nodiscard]] double clearance(const ConvexPolygon& outline, const Eigen::Vector2d& centre, double radius,
                                  double far = kFar) const;
   [[nodiscard]] std::optional<Contact> first_contact(const BodyMotion& motion) const;
 
@@ -93,7 +93,7 @@ class StaticShapes {
   };
   [[nodiscard]] double distance_to(const Shape& shape, const Eigen::Vector2d& position) const;
   [[nodiscard]] double swept_distance_to(const Shape& shape, const Motion& motion) const;
-  [[nodiscard]] double distance_to(const Shape& shape, const PlacedPolygon& outline) const;
+  [[nodiscard]] double distance_to(const Shape& shape, const ConvexPolygon& outline) const;
 
   std::optional<Box> border_;
   std::vector<Box> boxes_;

@@ -80,7 +80,7 @@ void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& di
       cast_disc(disc.position_world, disc.radius, sweep);
       continue;
     }
-    const PlacedPolygon body{*disc.outline, disc.position_world, disc.heading};
+    const ConvexPolygon body = disc.outline->placed(disc.position_world, disc.heading);
     for (std::size_t i = 0; i < body.size(); ++i) cast_segment(body.side(i), sweep);
   }
 }
@@ -118,7 +118,7 @@ bool RangeSensor::line_clear(const Segment& line, const SeenDisc& target,
     const bool itself = disc.position_world == target.position_world && disc.radius == target.radius;
     if (itself || distance_to_segment(disc.position_world, line) >= disc.radius) continue;
     if (disc.outline == nullptr) return false;
-    const PlacedPolygon body{*disc.outline, disc.position_world, disc.heading};
+    const ConvexPolygon body = disc.outline->placed(disc.position_world, disc.heading);
     if (!(body.distance_to(line) > 0.0)) return false;
   }
   return true;

@@ -157,6 +157,15 @@ void Footprint::cover() {
   std::sort(cover_.begin(), cover_.end(), [](const Disc& a, const Disc& b) { return a.reach > b.reach; });
 }
 
+ConvexPolygon Footprint::placed(const Eigen::Vector2d& position, double heading) const {
+  const Eigen::Vector2d ahead{std::cos(heading), std::sin(heading)};
+  const Eigen::Vector2d left{-ahead.y(), ahead.x()};
+  ConvexPolygon polygon;
+  for (const Eigen::Vector2d& corner : corners_)
+    polygon.add(position + corner.x() * ahead + corner.y() * left);
+  return polygon;
+}
+
 double Footprint::distance_to(const Eigen::Vector2d& point_body) const {
   return is_disc() ? point_body.norm() - circumscribed_ : signed_distance_to_polygon(point_body, corners_);
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "spf/math/convex_polygon.hpp"
 #include "spf/robot/robot_parameters.hpp"
 
 namespace spf {
@@ -18,7 +19,7 @@ namespace spf {
 /// A value. Queries never throw or allocate.
 class Footprint {
  public:
-  static constexpr std::size_t kMostCorners = 16;
+  static constexpr std::size_t kMostCorners = ConvexPolygon::kMostCorners;
 
   /// Throws std::invalid_argument with footprint_problem(robot) when there is one.
   explicit Footprint(const RobotParameters& robot);
@@ -26,6 +27,8 @@ class Footprint {
   [[nodiscard]] bool is_disc() const { return corners_.empty(); }
   /// Counterclockwise [m]; none of a disc.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& corners() const { return corners_; }
+  /// The corners with the centre at `position` and a heading [rad], in the frame of these.
+  [[nodiscard]] ConvexPolygon placed(const Eigen::Vector2d& position, double heading) const;
   /// Of the largest disc around the centre within the outline [m]: what is nearer is hit whatever the
   /// heading.
   [[nodiscard]] double inscribed_radius() const { return inscribed_; }
