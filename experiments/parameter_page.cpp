@@ -106,11 +106,9 @@ std::string parameter_page() {
       "paper, the experiment protocol (docs/protocol.md), or our choice.\n\nDefaults are written down for "
       "the standard robot (radius r = 0.3 m, speed v = 1 m/s, acceleration a = 1 m/s^2). Where the column "
       "`follows` names something, another robot's default is this one times: `size` r / 0.3 m, of a robot "
-      "with "
-      "corners half its width / 0.3 m; `distance` "
-      "max(r, "
-      "0.3 v^2 / a) / 0.3 m; `speed` v / (1 m/s); `time` (v / a + r / v) / 1.3 s, the time to stop and to "
-      "clear the robot's own footprint. `spf run` with `--out` writes the values used into `scenario.yaml`. "
+      "with corners half its width / 0.3 m; `distance` max(r, 0.3 v^2 / a) / 0.3 m; `speed` v / (1 m/s); "
+      "`time` (v / a + r / v) / 1.3 s, the time to stop and to clear the robot's own footprint. `spf run` "
+      "with `--out` writes the values used into `scenario.yaml`. "
       "A value that is set counts as it is written, whatever the robot.\n";
   std::string section = "none yet";
   std::vector<ParameterRow> rows;

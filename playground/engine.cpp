@@ -8,20 +8,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/hexadecimal.hpp"
 #include "experiments/replay_export.hpp"
 #include "report/replay_json.hpp"
+#include "sim/task_between.hpp"
 #include "sim/world.hpp"
 
 namespace spf::playground {
 namespace {
 
 using nlohmann::json;
-
-std::string hexadecimal(std::uint64_t digest) {
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(digest));
-  return text.data();
-}
 
 TrialKey key_of(const RunConfiguration& config, int trial) {
   TrialKey key;
@@ -38,12 +34,6 @@ TrialKey key_of(const RunConfiguration& config, int trial) {
 void set_price_of_risk(RunConfiguration& config, double seconds) {
   config.agent.space_time.collision_cost = seconds;
   for (RobotKind& kind : config.fleet) kind.agent.space_time.collision_cost = seconds;
-}
-
-/// How a robot at a position faces its goal.
-Pose2 facing(const Eigen::Vector2d& position, const Eigen::Vector2d& goal) {
-  const Eigen::Vector2d way = goal - position;
-  return {position, way.norm() > 0.0 ? std::atan2(way.y(), way.x()) : 0.0};
 }
 
 }  // namespace
@@ -132,7 +122,8 @@ void Engine::move_robot(int robot, const Eigen::Vector2d& position_world) {
   if (world.shapes().clearance(position_world, setup_.robot_of(index).radius) <= 0.0)
     throw std::invalid_argument{"robot " + std::to_string(robot) + " does not fit there"};
   const std::optional<host::Goal> goal = world.goal(robot);
-  simulation_->put(robot, facing(position_world, goal ? goal->position_world : position_world));
+  simulation_->put(robot,
+                   sim::task_between(position_world, goal ? goal->position_world : position_world).start);
 }
 
 }  // namespace spf::playground

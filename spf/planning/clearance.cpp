@@ -149,7 +149,6 @@ double ClearanceModel::static_clearance(const Eigen::Vector2d& position_world, d
 
 double ClearanceModel::static_clearance(const Eigen::Vector2d& position_world, double heading,
                                         double margin_scale) const {
-  if (footprint_.is_disc()) return static_clearance(position_world, margin_scale);
   const auto distance = [this](const Eigen::Vector2d& point) { return map_->distance(point); };
   // Farther off it matters no more how near exactly.
   const double enough = robot_.radius + margin_scale * static_margin_;
