@@ -20,13 +20,21 @@ const wasmBinary = readFileSync(engineBytes);
 const engine = await createRequire(import.meta.url)(engineScript)({ wasmBinary });
 const palette = engine.ccall("spf_palette", "string", [], []);
 
+// What both pages have: marked in that of the replay.
+const marked = text(join(replay, "replay.html")).matchAll(/<!-- shared: (\w+) -->\n(.*?)\n *<!-- end -->/gs);
+const shared = Object.fromEntries([...marked].map(([, name, markup]) => [name.toUpperCase(), markup]));
+
 const parts = {
+  ...shared,
   STYLE: palette + text(join(replay, "replay.css")) + text(join(own, "page.css")), BYTES: wasmBinary.toString("base64"),
   ENGINE: text(engineScript), WORKER: text(join(own, "engine_worker.js")), SCRIPT: scripts,
 };
 for (const name of ["ENGINE", "WORKER", "SCRIPT"]) {
   if (/<\/script|<!--/i.test(parts[name])) throw new Error(`${name} would end its script element`);
 }
-const page = text(join(own, "page.html")).replace(/@([A-Z]+)@/g, (mark, name) => parts[name] ?? mark);
+const page = text(join(own, "page.html")).replace(/@([A-Z]+)@/g, (mark, name) => {
+  if (parts[name] === undefined) throw new Error(`page.html: there is no ${mark}`);
+  return parts[name];
+});
 writeFileSync(output, page);
 console.log(`${output}: ${(page.length / 1e6).toFixed(2)} MB`);

@@ -1,40 +1,17 @@
 // node report_page_test.mjs NODE_MODULES BROWSER FOLDER: opens FOLDER/report.html as a reader would. Leaves pictures in
 // FOLDER. Exit 0 = all held.
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 
+import { desktop, openBrowser } from "../../report/test/browser_checks.mjs";
+
 const [modules, executablePath, folder] = process.argv.slice(2);
-const { chromium } = createRequire(path.join(path.resolve(modules), "test.js"))("playwright-core");
 const address = pathToFileURL(path.resolve(folder, "report.html")).href;
-const args = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-const browser = await chromium.launch({ executablePath, args });
-const failures = [];
 
-/** Opens the page in a fresh context, runs the check, then demands silence on the console and on the network. */
-async function check(name, options, body) {
-  const context = await browser.newContext(options);
-  const page = await context.newPage();
-  page.setDefaultTimeout(10000);
-  const complaints = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(`console: ${message.text()}`));
-  page.on("pageerror", (error) => complaints.push(`script: ${error.message}`));
-  page.on("request", (request) => !/^(file|data):/.test(request.url()) && complaints.push(`request: ${request.url()}`));
-  try {
-    await page.goto(address);
-    await body(page);
-    assert.deepEqual(complaints, []);
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    failures.push(name);
-    console.log(`FAIL  ${name}\n${error.stack}\n${complaints.join("\n")}`);
-  }
-  await context.close();
-}
+const { check: checkAt, end } = await openBrowser(modules, executablePath);
+const check = (name, options, body) => checkAt(name, options, address, body);
 
-const desktop = { viewport: { width: 1440, height: 900 }, colorScheme: "light" };
 const background = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
 
 await check("the paper's figures stand beside ours", desktop, async (page) => {
@@ -110,6 +87,4 @@ await check("every heading, link and table can be reached and has a name", deskt
   assert.equal(await page.locator(".scroll:not([tabindex])").count(), 0);
 });
 
-await browser.close();
-console.log(failures.length === 0 ? "all held" : `failed: ${failures.join("; ")}`);
-process.exit(failures.length === 0 ? 0 : 1);
+await end();

@@ -2,42 +2,22 @@
 // Exit 0 = all held. What depends on how fast the machine is is printed, and not judged.
 import assert from "node:assert/strict";
 import { statSync } from "node:fs";
-import { createRequire } from "node:module";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 
+import { desktop, openBrowser, phone } from "../../report/test/browser_checks.mjs";
+
 const [modules, executablePath, folder] = process.argv.slice(2);
-const { chromium } = createRequire(path.join(path.resolve(modules), "test.js"))("playwright-core");
 const file = path.resolve(folder, "playground.html");
-const args = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-const desktop = { viewport: { width: 1440, height: 900 }, colorScheme: "light" };
-const phone = { viewport: { width: 390, height: 844 }, colorScheme: "light", deviceScaleFactor: 2, hasTouch: true };
 
-const browser = await chromium.launch({ executablePath, args });
-const failures = [];
-
-/** Opens the page with a scene, runs the check, then demands silence on the console and on the network. */
-async function check(name, options, scene, body) {
-  const context = await browser.newContext(options);
-  const page = await context.newPage();
-  page.setDefaultTimeout(60000);
-  const complaints = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(`console: ${message.text()}`));
-  page.on("pageerror", (error) => complaints.push(`script: ${error.message}`));
-  page.on("request", (request) => !/^(file|data|blob):/.test(request.url()) && complaints.push(`request: ${request.url()}`));
-  try {
-    const link = scene ? `#scene=${Buffer.from(JSON.stringify(scene)).toString("base64url")}` : "";
-    await page.goto(pathToFileURL(file).href + link);
+const { check: checkAt, end } = await openBrowser(modules, executablePath, { timeout: 60000, schemes: ["file", "data", "blob"] });
+/** With a scene, once the engine runs. */
+function check(name, options, scene, body) {
+  const link = scene ? `#scene=${Buffer.from(JSON.stringify(scene)).toString("base64url")}` : "";
+  return checkAt(name, options, pathToFileURL(file).href + link, async (page) => {
     await page.waitForFunction(() => document.getElementById("loading").hidden);
     await body(page);
-    assert.deepEqual(complaints, []);
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    failures.push(name);
-    console.log(`FAIL  ${name}\n${error.stack}\n${complaints.join("\n")}`);
-  }
-  await context.close();
+  });
 }
 
 const clock = async (page) => parseFloat(await page.textContent("#clock"));
@@ -149,7 +129,4 @@ await check("a link that is none is said, and something runs", desktop, "nonsens
 });
 
 const size = statSync(file).size;
-if (size >= 3e6) failures.push(`the page has ${size} bytes`);
-await browser.close();
-console.log(failures.length ? `${failures.length} failed` : "all held");
-process.exit(failures.length ? 1 : 0);
+await end(size < 3e6 ? [] : [`the page has ${size} bytes`]);

@@ -1,41 +1,16 @@
 // node replay_page_test.mjs NODE_MODULES BROWSER FOLDER: opens FOLDER/sample.html (spf_sample_replay) as a reader would.
 // Leaves pictures in FOLDER. Exit 0 = all held.
 import assert from "node:assert/strict";
-import { createRequire } from "node:module";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 
+import { desktop, openBrowser, phone } from "./browser_checks.mjs";
+
 const [modules, executablePath, folder] = process.argv.slice(2);
-const { chromium } = createRequire(path.join(path.resolve(modules), "test.js"))("playwright-core");
 const address = pathToFileURL(path.resolve(folder, "sample.html")).href;
-const args = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-const desktop = { viewport: { width: 1440, height: 900 }, colorScheme: "light" };
-const phone = { viewport: { width: 390, height: 844 }, colorScheme: "light", deviceScaleFactor: 2, hasTouch: true };
 
-const browser = await chromium.launch({ executablePath, args });
-const failures = [];
-
-/** Opens the page in a fresh context, runs the check, then demands silence on the console and on the network. */
-async function check(name, options, suffix, body) {
-  const context = await browser.newContext(options);
-  const page = await context.newPage();
-  page.setDefaultTimeout(10000);
-  const complaints = [];
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(`console: ${message.text()}`));
-  page.on("pageerror", (error) => complaints.push(`script: ${error.message}`));
-  page.on("request", (request) => !/^(file|data):/.test(request.url()) && complaints.push(`request: ${request.url()}`));
-  try {
-    await page.goto(address + suffix);
-    await body(page);
-    assert.deepEqual(complaints, []);
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    failures.push(name);
-    console.log(`FAIL  ${name}\n${error.stack}\n${complaints.join("\n")}`);
-  }
-  await context.close();
-}
+const { check: checkAt, end } = await openBrowser(modules, executablePath);
+const check = (name, options, suffix, body) => checkAt(name, options, address + suffix, body);
 
 const clock = async (page) => parseFloat((await page.textContent("#clock")).replace("\u2212", "-"));
 const clockIs = (page, seconds) => page.waitForFunction((s) => Math.abs(parseFloat(document.getElementById("clock").textContent) - s) < 0.051, seconds);
@@ -278,6 +253,4 @@ await check("help opens by key, closes by Escape and holds the keys back", deskt
   await page.waitForSelector("#help[open]", { state: "detached" });
 });
 
-await browser.close();
-console.log(failures.length === 0 ? "all held" : `failed: ${failures.join("; ")}`);
-process.exit(failures.length === 0 ? 0 : 1);
+await end();
