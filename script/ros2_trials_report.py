@@ -7,12 +7,7 @@ import json
 import sys
 from pathlib import Path
 
-ALLOWED = 1  # trial that may be lost more than in one process
-
-
-def program_trials(folder):
-    lines = (folder / "program" / "trials.jsonl").read_text(encoding="utf-8").splitlines()
-    return {record["trial"]: record for record in map(json.loads, lines)}
+from ros_trials_report import ALLOWED, program_last_arrival, program_trials, text
 
 
 def dds_trials(folder):
@@ -22,8 +17,7 @@ def dds_trials(folder):
 def row(trial, dds, program):
     robots = dds["by_robot"]
     processor = 100.0 * sum(robot["cpu_s"] for robot in robots) / len(robots) / dds["wall_s"]
-    last = max(robot["travel_time"] for robot in program["robots"])
-    return (f"| {trial} | {dds['outcome']} | {dds['duration_s']:.1f} | {program['outcome']} | {last:.1f} | "
+    return (f"| {trial} | {dds['outcome']} | {dds['duration_s']:.1f} | {program['outcome']} | {text(program_last_arrival(program))} | "
             f"{sum(robot['commands'] for robot in robots)} ({sum(robot['late_commands'] for robot in robots)}) | "
             f"{max(robot['longest_gap_s'] for robot in robots):.3f} | {dds['clock_shifted_s']:.2f} | {processor:.0f} % | "
             f"{max(robot['memory_mb'] for robot in robots):.0f} MB |")
