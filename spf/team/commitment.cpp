@@ -11,6 +11,8 @@ namespace spf {
 namespace {
 
 constexpr double kStandingShare = 0.1;  // [1] of the distance at which a plan starts anew
+constexpr double kRest = 0.01;          // [1] of max_speed: the plan stands
+constexpr double kSettled = 0.5;        // [s] at rest, after which a robot is no nearer to its plan later on
 
 }  // namespace
 
@@ -39,7 +41,8 @@ void Commitment::begin_plan(const StateEstimate& estimate, PlanRequest& request,
   const double noise = 4.0 * std::sqrt(estimate.position_variance);
   // One that is only slowed down goes on along its plan while it is near it.
   const bool stands = hold && hold->stands;
-  if (error.norm() > (stands ? noise : std::max(reanchor_distance_, noise))) {
+  const double far = settled_beside(request) ? standing_error(estimate) : std::max(reanchor_distance_, noise);
+  if (error.norm() > (stands ? noise : far)) {
     const Eigen::Vector3d twist = hold ? hold->twist_world : Eigen::Vector3d{Eigen::Vector3d::Zero()};
     request.head = {pose.position_world, twist.head<2>(), Eigen::Vector2d::Zero()};
     request.heading = {pose.heading, twist.z()};
@@ -49,6 +52,17 @@ void Commitment::begin_plan(const StateEstimate& estimate, PlanRequest& request,
   }
   constexpr double kSmoothing = 0.1;  // of about one second at ten plans a second
   tracking_variance_ += kSmoothing * (0.5 * error.squaredNorm() - tracking_variance_);
+}
+
+/// Who cannot move sideways stands for good beside a plan that ended there; the next begins where it stands.
+bool Commitment::settled_beside(const PlanRequest& request) {
+  const bool rests = request.head.velocity_world.norm() < kRest * robot_.max_speed;
+  if (!rests || drive_.holonomic() || request.time < rests_since_) rests_since_ = request.time;
+  return request.time - rests_since_ > kSettled;
+}
+
+double Commitment::standing_error(const StateEstimate& estimate) const {
+  return std::max(kStandingShare * reanchor_distance_, 4.0 * std::sqrt(estimate.position_variance));
 }
 
 void Commitment::follow(const PlanRequest& request, const PlanResult& result) {
@@ -84,9 +98,9 @@ bool Commitment::brake(double time) {
 
 bool Commitment::stand_where(const StateEstimate& estimate, double time) {
   const Pose2& pose = estimate.pose_world;
-  const double limit =
-      std::max(kStandingShare * reanchor_distance_, 4.0 * std::sqrt(estimate.position_variance));
-  if (!estimate.valid || (pose.position_world - trajectory_.position(time)).norm() <= limit) return false;
+  if (!estimate.valid ||
+      (pose.position_world - trajectory_.position(time)).norm() <= standing_error(estimate))
+    return false;
   trajectory_ = Trajectory::standing(pose.position_world, time, 1.0, HeadingProfile{pose.heading});
   tracking_variance_ = 0.0;
   return true;

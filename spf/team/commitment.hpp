@@ -22,7 +22,8 @@ class Commitment {
 
   /// Fills in where a plan made at request.time begins. It goes on from the trajectory, which keeps the
   /// motion smooth; a robot that has been carried too far from it, by an estimate that is valid, starts anew
-  /// where it is, as it is told to move when it is held, and so does one that may not go on at all.
+  /// where it is, as it is told to move when it is held, and so does one that may not go on at all, or that
+  /// cannot move sideways and has come to rest beside it.
   void begin_plan(const StateEstimate& estimate, PlanRequest& request,
                   const std::optional<Hold>& hold = std::nullopt);
   /// Does what the result's action says, with the heading that the heading mode wants; near its end with the
@@ -44,6 +45,9 @@ class Commitment {
  private:
   [[nodiscard]] bool ends_soon(const PlanRequest& request) const;
   [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request) const;
+  [[nodiscard]] bool settled_beside(const PlanRequest& request);
+  /// How far a robot that stands may be from its plan [m].
+  [[nodiscard]] double standing_error(const StateEstimate& estimate) const;
 
   HeadingMode heading_mode_;
   RobotParameters robot_;
@@ -52,6 +56,7 @@ class Commitment {
   double held_heading_;       // [rad] in mode `keep`
   Trajectory trajectory_;
   bool braking_ = false;
+  double rests_since_ = 0.0;        // [s] a plan of a robot that cannot move sideways
   double tracking_variance_ = 0.0;  // [m^2]
 };
 

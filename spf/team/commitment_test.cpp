@@ -105,6 +105,27 @@ TEST_F(CommitmentTest, ThereIsNoStartingAnewForAnEstimateThatMayBeThatFarOff) {
   EXPECT_NE(request.committed, nullptr);
 }
 
+TEST(CommitmentSettled, ARobotThatCannotMoveSidewaysPlansFromWhereItHasComeToRest) {
+  for (const DriveType drive : {DriveType::differential, DriveType::omni}) {
+    AgentParameters parameters;
+    parameters.robot.drive = drive;
+    Commitment commitment{parameters, {{0.0, 0.0}, 0.4}, 0.0};
+    const StateEstimate beside = estimate_at({0.0, 0.1});
+    const auto goes_on = [&](const StateEstimate& estimate, double time) {
+      PlanRequest request = request_at(time);
+      commitment.begin_plan(estimate, request);
+      return request.committed != nullptr;
+    };
+    EXPECT_TRUE(goes_on(beside, 0.1));
+    EXPECT_TRUE(goes_on(beside, 0.3));
+    EXPECT_TRUE(goes_on(estimate_at({0.0, 0.01}), 0.9));
+    StateEstimate unsure = beside;
+    unsure.position_variance = 0.03 * 0.03;
+    EXPECT_TRUE(goes_on(unsure, 0.95));
+    EXPECT_EQ(goes_on(beside, 1.0), drive == DriveType::omni);
+  }
+}
+
 TEST_F(CommitmentTest, KeepsThePlanUnderWayWhenToldTo) {
   set_out();
   PlanRequest request = request_at(2.0);
