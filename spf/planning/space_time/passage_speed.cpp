@@ -13,16 +13,16 @@ namespace {
 constexpr double kCreep = 0.08;  // [1] of max_speed, in the narrowest gap
 constexpr double kOffMiddle =
     0.8;  // [1] of the room beside the robot: the rest is for not being in the middle
-constexpr double kNearlyAsFar = 0.9;   // [1] of the most standard deviations from a surface
-constexpr double kMostParts = 1e6;     // of a leg
-constexpr std::size_t kCorners = 64;   // of a path: more have to be allocated
-constexpr double kLookAhead = 0.5;     // [1] of the radius
-constexpr std::size_t kTurnMarks = 3;  // looks before and behind a turn
-constexpr double kStraight = 0.1;      // [rad]
-constexpr double kCut = 0.5;           // [1] of the room
-constexpr double kTurning = 0.7;       // [1] of max_acceleration
+constexpr double kNearlyAsFar = 0.9;  // [1] of the most standard deviations from a surface
+constexpr double kMostParts = 1e6;    // of a leg
+constexpr std::size_t kCorners = 64;  // of a path: more have to be allocated
+constexpr double kLookAhead = 0.5;    // [1] of the radius
+constexpr double kLeastPart = 0.5;    // [1] of the reach of a turn
+constexpr double kStraight = 0.1;     // [rad]
+constexpr double kCut = 0.5;          // [1] of the room
+constexpr double kTurning = 0.4;      // [1] of max_acceleration
 constexpr double kTurnShare =
-    0.3;  // [rad] half of a common turn, which takes speed^2 / acceleration times that
+    0.4;  // [rad] half of a common turn, which takes speed^2 / acceleration times that
 constexpr double kBraking = 0.5;        // [1] of max_acceleration
 constexpr double kSpacing = 1.0 / 3.0;  // [1] of the radius, between looks
 
@@ -117,12 +117,19 @@ void PassageSpeed::prepare(const PlanRequest& request) {
   look_along([&](const Eigen::Vector2d& here, const Eigen::Vector2d& ahead) {
     const Room room = room_at(request, here, ahead);
     const double cost = guide.cost_to_go(here);
-    marks_.push_back({here, marks_.empty() ? cost : std::min(cost, marks_.back().cost),
-                      straight_speed(request, room.least()), room});
+    Mark mark{here, cost, straight_speed(request, room.least()), room};
+    if (!marks_.empty()) {
+      const Mark& last = marks_.back();
+      mark.cost = std::min(cost, last.cost);
+      mark.along = last.along + (here - last.position_world).norm();
+    }
+    marks_.push_back(mark);
     return true;
   });
   keep_legs();
   slow_down_in_turns();
+  leave_room_to_brake();
+  add_delays();
   stop_before_what_stands();
   if (request.give_way && request.give_way->cost_to_go >= stop_cost_) {
     waits_ = true;
@@ -131,11 +138,28 @@ void PassageSpeed::prepare(const PlanRequest& request) {
     for (Mark& mark : marks_)
       if (mark.cost <= stop_cost_) mark.speed = 0.0;
   }
+  leave_room_to_brake();
+}
+
+void PassageSpeed::leave_room_to_brake() {
   for (std::size_t k = marks_.size(); k-- > 1;) {
     const double step = (marks_[k].position_world - marks_[k - 1].position_world).norm();
     const double braked =
         std::sqrt(marks_[k].speed * marks_[k].speed + 2.0 * kBraking * robot_.max_acceleration * step);
     marks_[k - 1].speed = std::min(marks_[k - 1].speed, braked);
+  }
+}
+
+/// Narrow ground costs more than its length already, and where the path leads through what stands the guide
+/// counts how long that may take.
+void PassageSpeed::add_delays() {
+  for (std::size_t k = marks_.size(); k-- > 1;) {
+    const Mark& next = marks_[k];
+    Mark& mark = marks_[k - 1];
+    const double step = (next.position_world - mark.position_world).norm();
+    const double speed = std::max(0.5 * (mark.speed + next.speed), kCreep * robot_.max_speed);
+    const double counted = (mark.cost - next.cost) / robot_.max_speed;
+    mark.delay = next.delay + (next.room.at_standing < 0.0 ? 0.0 : std::max(0.0, step / speed - counted));
   }
 }
 
@@ -151,16 +175,25 @@ void PassageSpeed::keep_legs() {
   }
 }
 
-/// A turn at a speed has a radius, and cuts its corner by no more than a share of the room there.
+/// A turn at a speed has a radius, and cuts its corner by no more than a share of the room there. The turn is
+/// that of the path as far before and behind as the robot's radius, however many corners it has there.
 void PassageSpeed::slow_down_in_turns() {
-  const std::size_t window = kTurnMarks;
-  for (std::size_t k = window; k + window < marks_.size(); ++k) {
-    const Eigen::Vector2d before = marks_[k].position_world - marks_[k - window].position_world;
-    const Eigen::Vector2d after = marks_[k + window].position_world - marks_[k].position_world;
+  const double reach = robot_.radius;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  for (std::size_t k = 0; k < marks_.size(); ++k) {
+    const Mark& here = marks_[k];
+    while (first < k && marks_[first + 1].along <= here.along - reach) ++first;
+    while (last + 1 < marks_.size() && marks_[last].along < here.along + reach) ++last;
+    if (here.along - marks_[first].along < kLeastPart * reach ||
+        marks_[last].along - here.along < kLeastPart * reach)
+      continue;  // the path ends
+    const Eigen::Vector2d before = here.position_world - marks_[first].position_world;
+    const Eigen::Vector2d after = marks_[last].position_world - here.position_world;
     const double angle = std::fabs(std::atan2(cross(before, after), before.dot(after)));
     if (angle < kStraight) continue;
     const double by_curvature = 0.5 * (before.norm() + after.norm()) / angle;
-    const double cut = kCut * std::max(marks_[k].room.least(), 0.0);
+    const double cut = kCut * std::max(here.room.least(), 0.0);
     const double by_cut = cut / (1.0 / std::cos(0.5 * std::min(angle, 3.0)) - 1.0);
     const double speed = std::sqrt(kTurning * robot_.max_acceleration * std::max(by_curvature, by_cut));
     marks_[k].speed = std::min(marks_[k].speed, speed);
@@ -208,9 +241,23 @@ std::optional<Eigen::Vector2d> PassageSpeed::direction(const Eigen::Vector2d& po
   return Eigen::Vector2d{onwards / length};
 }
 
+std::vector<PassageSpeed::Mark>::const_iterator PassageSpeed::mark_at(double cost_to_go) const {
+  return std::lower_bound(marks_.begin(), marks_.end(), cost_to_go,
+                          [](const Mark& mark, double cost) { return mark.cost > cost; });
+}
+
+double PassageSpeed::delay(double left) const {
+  const auto next = mark_at(left);
+  if (next == marks_.end()) return 0.0;
+  if (next == marks_.begin()) return next->delay;
+  const Mark& before = *std::prev(next);
+  const double step = before.cost - next->cost;
+  const double share = step > 0.0 ? (left - next->cost) / step : 0.0;
+  return next->delay + share * (before.delay - next->delay);
+}
+
 double PassageSpeed::limit(double cost_to_go) const {
-  const auto next = std::lower_bound(marks_.begin(), marks_.end(), cost_to_go,
-                                     [](const Mark& mark, double cost) { return mark.cost > cost; });
+  const auto next = mark_at(cost_to_go);
   if (next == marks_.end()) return std::numeric_limits<double>::infinity();
   if (next == marks_.begin()) return next->speed;
   return std::min(next->speed, std::prev(next)->speed);

@@ -77,6 +77,36 @@ TEST_F(PassageSpeedTest, LeadsBackToTheWayAndAlongIt) {
   EXPECT_FALSE(passage_.direction({-1.0, 2.0}, 0.0).has_value());
 }
 
+TEST_F(PassageSpeedTest, TellsHowMuchLongerNarrowPlacesTake) {
+  prepare(1.4);
+  EXPECT_EQ(passage_.delay(guide_.cost_to_go({-2.0, 0.0})), 0.0);
+  double last = 0.0;
+  for (const double door : {0.8, 0.74, 0.7}) {
+    prepare(door);
+    const auto delay_at = [&](double x) { return passage_.delay(guide_.cost_to_go({x, 0.0})); };
+    EXPECT_GT(delay_at(-1.9), last) << door;
+    last = delay_at(-1.9);
+    for (double x = -1.9; x < 1.0; x += 0.1) EXPECT_GE(delay_at(x), delay_at(x + 0.1)) << door << " " << x;
+    EXPECT_NEAR(delay_at(1.5), 0.0, 1e-9) << door;
+    // Step by step at the speeds allowed, what the cost counts at full speed included.
+    double time = 0.0;
+    for (double x = -1.9; x < 1.0; x += 0.01) time += 0.01 / std::min(limit_at(x + 0.005), robot_.max_speed);
+    const double counted =
+        (guide_.cost_to_go({-1.9, 0.0}) - guide_.cost_to_go({1.0, 0.0})) / robot_.max_speed;
+    EXPECT_GT(last + counted, 0.75 * time) << door;
+    EXPECT_LT(last + counted, 1.5 * time) << door;
+  }
+}
+
+TEST_F(PassageSpeedTest, CountsNoDelayForStandingBeforeWhatStands) {
+  prepare(0.9);
+  const double open = passage_.delay(guide_.cost_to_go({-1.9, 0.0}));
+  prepare(0.9, {{{0.0, 0.0}, 0.3, 10.0, 7, true}});
+  ASSERT_NE(passage_.blocked_by(), nullptr);
+  const double left = passage_.left_to_go(guide_.cost_to_go({-1.9, 0.0}));
+  EXPECT_LT(passage_.delay(left), open + 2.0);
+}
+
 TEST_F(PassageSpeedTest, StopsBeforeWhatStandsInTheOnlyWayAndNamesIt) {
   prepare(0.9, {{{0.0, 0.0}, 0.3, 10.0, 7, true}});
   ASSERT_NE(passage_.blocked_by(), nullptr);

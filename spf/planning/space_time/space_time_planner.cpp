@@ -58,17 +58,21 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
   if (steers(robot_)) steering_.emplace(robot_);
 }
 
+/// The remaining path at full speed, and what its narrow places take longer [s].
+double SpaceTimePlanner::time_to_go(const Eigen::Vector2d& position_world, const CostToGo& guide) const {
+  const double left = passage_.left_to_go(guide.cost_to_go(position_world));
+  return left / settings_.max_speed + passage_.delay(left);
+}
+
 SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const PlanRequest& request,
                                                 double enough) const {
   const CostToGo& guide = *request.guide;
   Score score;
   const auto end = static_cast<std::size_t>(roll_out.steps);
   const Eigen::Vector2d& tail = roll_out.position_world[end];
-  // Travel time: the horizon, the remaining path at full speed, and half the time for the remaining change of
-  // velocity.
+  // Travel time: the horizon, the remaining path, and half the time for the remaining change of velocity.
   const Eigen::Vector2d wanted = goal_velocity(tail, guide, settings_);
-  score.time = settings_.step * roll_out.steps +
-               passage_.left_to_go(guide.cost_to_go(tail)) / settings_.max_speed +
+  score.time = settings_.step * roll_out.steps + time_to_go(tail, guide) +
                0.5 * (wanted - roll_out.velocity_world[end]).norm() / settings_.max_acceleration;
   if (steering_) score.time += turning_time(roll_out.state(*steering_, roll_out.steps), guide);
   // Early progress is better than the same progress planned for later, which could be postponed again and
@@ -76,9 +80,9 @@ SpaceTimePlanner::Score SpaceTimePlanner::score(const RollOut& roll_out, const P
   double to_go = 0.0;
   for (int i = 1; i <= kProgressSamples; ++i) {
     const auto at = static_cast<std::size_t>(i * roll_out.steps / (kProgressSamples + 1));
-    to_go += passage_.left_to_go(guide.cost_to_go(roll_out.position_world[at]));
+    to_go += time_to_go(roll_out.position_world[at], guide);
   }
-  score.time += kEarlyProgress * to_go / (kProgressSamples * settings_.max_speed);
+  score.time += kEarlyProgress * to_go / kProgressSamples;
   // Faster than what may come from beyond its sight allows.
   const auto soon = static_cast<std::size_t>(
       std::min(roll_out.steps, static_cast<int>(std::ceil(request.world.sight.reaction / settings_.step))));

@@ -48,6 +48,7 @@ class SpaceTimePlanner final : public Planner {
   [[nodiscard]] MovingRisk risk_in_crowd() const;
   void consider_previous(const PlanRequest& request, PlanResult& result);
   void consider_all(const PlanRequest& request, const Score& direct, PlanResult& result);
+  [[nodiscard]] double time_to_go(const Eigen::Vector2d& position_world, const CostToGo& guide) const;
   [[nodiscard]] double turning_time(const SteeredState& state, const CostToGo& guide) const;
   [[nodiscard]] double turning_reach() const { return std::max(robot_.radius, robot_.min_turning_radius); }
   void consider_sidesteps(const PlanRequest& request, PlanResult& result);
