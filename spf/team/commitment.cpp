@@ -11,7 +11,7 @@ namespace spf {
 namespace {
 
 constexpr double kStandingShare = 0.1;  // [1] of the distance at which a plan starts anew
-constexpr double kRest = 0.01;          // [1] of max_speed: the plan stands
+constexpr double kRest = 0.01;          // [1] of max_speed and max_yaw_rate: the plan stands
 constexpr double kSettled = 0.5;        // [s] at rest, after which a robot is no nearer to its plan later on
 
 }  // namespace
@@ -22,6 +22,7 @@ Commitment::Commitment(const AgentParameters& parameters, const Pose2& start, do
       drive_{parameters.robot},
       reanchor_distance_{parameters.team.reanchor_distance},
       held_heading_{start.heading},
+      rests_since_{time},
       trajectory_{Trajectory::standing(start.position_world, time, 1.0, HeadingProfile{start.heading})} {}
 
 void Commitment::reconfigure(const AgentParameters& parameters) {
@@ -35,13 +36,15 @@ void Commitment::begin_plan(const StateEstimate& estimate, PlanRequest& request,
   request.heading = trajectory_.heading_state(request.time);
   request.committed = &trajectory_;
   request.braking = braking_;
+  watch_rest(request);
   if (!estimate.valid) return;
   const Pose2& pose = estimate.pose_world;
   const Eigen::Vector2d error = pose.position_world - request.head.position_world;
   const double noise = 4.0 * std::sqrt(estimate.position_variance);
   // One that is only slowed down goes on along its plan while it is near it.
   const bool stands = hold && hold->stands;
-  const double far = settled_beside(request) ? standing_error(estimate) : std::max(reanchor_distance_, noise);
+  const bool settled = request.time - rests_since_ > kSettled;
+  const double far = settled ? standing_error(estimate) : std::max(reanchor_distance_, noise);
   if (error.norm() > (stands ? noise : far)) {
     const Eigen::Vector3d twist = hold ? hold->twist_world : Eigen::Vector3d{Eigen::Vector3d::Zero()};
     request.head = {pose.position_world, twist.head<2>(), Eigen::Vector2d::Zero()};
@@ -54,11 +57,11 @@ void Commitment::begin_plan(const StateEstimate& estimate, PlanRequest& request,
   tracking_variance_ += kSmoothing * (0.5 * error.squaredNorm() - tracking_variance_);
 }
 
-/// Who cannot move sideways stands for good beside a plan that ended there; the next begins where it stands.
-bool Commitment::settled_beside(const PlanRequest& request) {
-  const bool rests = request.head.velocity_world.norm() < kRest * robot_.max_speed;
+/// Who cannot move sideways stands for good beside a plan that ended there.
+void Commitment::watch_rest(const PlanRequest& request) {
+  const bool rests = request.head.velocity_world.norm() < kRest * robot_.max_speed &&
+                     std::abs(request.heading.yaw_rate) < kRest * robot_.max_yaw_rate;
   if (!rests || drive_.holonomic() || request.time < rests_since_) rests_since_ = request.time;
-  return request.time - rests_since_ > kSettled;
 }
 
 double Commitment::standing_error(const StateEstimate& estimate) const {

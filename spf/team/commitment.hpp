@@ -45,7 +45,7 @@ class Commitment {
  private:
   [[nodiscard]] bool ends_soon(const PlanRequest& request) const;
   [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request) const;
-  [[nodiscard]] bool settled_beside(const PlanRequest& request);
+  void watch_rest(const PlanRequest& request);
   /// How far a robot that stands may be from its plan [m].
   [[nodiscard]] double standing_error(const StateEstimate& estimate) const;
 
@@ -54,9 +54,9 @@ class Commitment {
   Drive drive_;
   double reanchor_distance_;  // [m]
   double held_heading_;       // [rad] in mode `keep`
+  double rests_since_;        // [s] since when the plan of a robot that cannot move sideways stands
   Trajectory trajectory_;
   bool braking_ = false;
-  double rests_since_ = 0.0;        // [s] a plan of a robot that cannot move sideways
   double tracking_variance_ = 0.0;  // [m^2]
 };
 

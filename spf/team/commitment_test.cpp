@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spf/planning/steering.hpp"
 #include "spf/team/ideal_host_test.hpp"
 
 namespace spf {
@@ -105,24 +106,57 @@ TEST_F(CommitmentTest, ThereIsNoStartingAnewForAnEstimateThatMayBeThatFarOff) {
   EXPECT_NE(request.committed, nullptr);
 }
 
-TEST(CommitmentSettled, ARobotThatCannotMoveSidewaysPlansFromWhereItHasComeToRest) {
-  for (const DriveType drive : {DriveType::differential, DriveType::omni}) {
+class CommitmentAtRest : public ::testing::TestWithParam<DriveType> {
+ protected:
+  static constexpr double kStart = 1000.0;  // [s] whatever the clock's origin
+  static AgentParameters parameters() {
     AgentParameters parameters;
-    parameters.robot.drive = drive;
-    Commitment commitment{parameters, {{0.0, 0.0}, 0.4}, 0.0};
-    const StateEstimate beside = estimate_at({0.0, 0.1});
-    const auto goes_on = [&](const StateEstimate& estimate, double time) {
-      PlanRequest request = request_at(time);
-      commitment.begin_plan(estimate, request);
-      return request.committed != nullptr;
-    };
-    EXPECT_TRUE(goes_on(beside, 0.1));
-    EXPECT_TRUE(goes_on(beside, 0.3));
-    EXPECT_TRUE(goes_on(estimate_at({0.0, 0.01}), 0.9));
-    StateEstimate unsure = beside;
-    unsure.position_variance = 0.03 * 0.03;
-    EXPECT_TRUE(goes_on(unsure, 0.95));
-    EXPECT_EQ(goes_on(beside, 1.0), drive == DriveType::omni);
+    parameters.robot.drive = GetParam();
+    return parameters;
+  }
+  /// Whether the plan made so long after the start goes on from the plan before.
+  bool goes_on(const StateEstimate& estimate, double after) {
+    PlanRequest request = request_at(kStart + after);
+    commitment.begin_plan(estimate, request);
+    return request.committed != nullptr;
+  }
+  const bool sideways = GetParam() == DriveType::omni || GetParam() == DriveType::mecanum;
+  const StateEstimate beside = estimate_at({0.0, 0.1});
+  Commitment commitment{parameters(), {{0.0, 0.0}, 0.4}, kStart};
+};
+
+TEST_P(CommitmentAtRest, ARobotThatCannotMoveSidewaysPlansFromWhereItStands) {
+  EXPECT_TRUE(goes_on(beside, 0.1));
+  EXPECT_TRUE(goes_on(beside, 0.3));
+  EXPECT_TRUE(goes_on(estimate_at({0.0, 0.01}), 0.9));
+  StateEstimate unsure = beside;
+  unsure.position_variance = 0.03 * 0.03;
+  EXPECT_TRUE(goes_on(unsure, 0.95));
+  EXPECT_EQ(goes_on(beside, 1.0), sideways);
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, CommitmentAtRest,
+                         ::testing::Values(DriveType::omni, DriveType::mecanum, DriveType::differential,
+                                           DriveType::car));
+
+TEST(CommitmentSteered, ARobotThatTurnsOnTheSpotIsNotAtRest) {
+  AgentParameters parameters;
+  parameters.robot.drive = DriveType::differential;
+  const Steering steering{parameters.robot};
+  Trajectory turning{0.0};
+  SteeredState state;
+  for (int k = 0; k < 15; ++k) {
+    const SteeredState before = state;
+    steering.turn(3.0, 0.1, state);
+    Steering::append(before, state, 0.1, turning);
+  }
+  Commitment commitment{parameters, {{0.0, 0.0}, 0.0}, 0.0};
+  commitment.follow(request_at(0.0), follow(turning));
+  ASSERT_GT(commitment.trajectory().heading_state(1.0).yaw_rate, 0.5);
+  for (double time = 0.1; time < 1.45; time += 0.1) {
+    PlanRequest request = request_at(time);
+    commitment.begin_plan(estimate_at({0.0, 0.1}), request);
+    EXPECT_NE(request.committed, nullptr) << time;
   }
 }
 
