@@ -11,6 +11,7 @@ from pathlib import Path
 
 from check_limits import files_of, main, tags_of
 
+BUILT_IN = (" int", " long", " char", " short", " double")  # may be a word of a type of several
 ROOMS_WITHIN = ("spf", "apps", "ros2")  # folders whose folders are rooms; elsewhere each folder is one
 NOT_BATCHED = ("bench", "fuzz", "examples", "python", "ros")
 
@@ -26,14 +27,25 @@ def batch_of(path):
 
 def types_of(signature):
     """A signature as the compiler tells functions apart: without its parameters' names and defaults."""
-    types, depth, start = [], 0, 1
+    types, depth, start, default = [], 0, 1, None
     for at, letter in enumerate(signature):
-        depth += (letter in "(<[{") - (letter in ")>]}")
+        # In a default, < and > compare.
+        opening, closing = ("([{", ")]}") if default is not None else ("([{<", ")]}>")
+        depth += (letter in opening) - (letter in closing)
+        if letter == "=" and depth == 1 and default is None:
+            default = at
         if (letter == "," and depth == 1) or (letter == ")" and depth == 0):
-            typed = signature[start:at].partition("=")[0].strip()
-            types.append(re.sub(r"(?<=[\w>&*] )\s*\w+$|(?<=[&*])\w+$", "", typed).replace(" ", ""))
-            start = at + 1
+            types.append(type_of(signature[start:at if default is None else default].strip()))
+            start, default = at + 1, None
     return ",".join(types)
+
+
+def type_of(parameter):
+    """Without its name, which is the last word behind a type."""
+    before = re.sub(r"\w+(?=(\[\w*\])*$)", "", parameter)
+    words = re.findall(r"\w+", re.sub(r"<.*>", "", before))
+    unnamed = all(word in ("const", "unsigned", "signed", "std") for word in words) or parameter.endswith(BUILT_IN)
+    return (parameter if unnamed else before).replace(" ", "")
 
 
 def names_in(root, files, kinds):
@@ -53,9 +65,9 @@ def check(root):
         if hidden:  # functions may share a name as long as their parameters differ
             what = (tag["name"], types_of(tag.get("signature", "")))
             places[batch_of(tag["path"]), namespace, what].setdefault(tag["path"], tag["line"])
-    for tag, namespace, hidden in names_in(root, [name for name in files if name.endswith(".hpp")], "csuvg"):
+    for tag, namespace, hidden in names_in(root, [name for name in files if name.endswith(".hpp")], "csuvgfp"):
         for test in (False, True):
-            place = (batch_of(tag["path"])[0], test), namespace, (tag["name"], "")
+            place = (batch_of(tag["path"])[0], test), namespace, (tag["name"], types_of(tag.get("signature", "")))
             if not hidden and place in places:
                 places[place].setdefault(tag["path"], tag["line"])
     return [f"{'room' if not test else 'tests of room'} {room}: '{name}' is declared in "

@@ -44,6 +44,13 @@ class Names(unittest.TestCase):
         self.assertIn("host/some_header.hpp:2", found[0])
         self.assertEqual(self.breaches_of(host__a=CONSTANT, sim__some_header=public), [])
 
+    def test_a_function_of_a_header_of_the_room(self):
+        public = "namespace spf {\ninline double area(double side) { return side * side; }\n}\n"
+        hidden = "namespace spf {\nnamespace {\ndouble area(double edge) { return edge * edge; }\n}\n}\n"
+        self.assertEqual(len(self.breaches_of(host__a_test=hidden, host__some_header=public)), 1)
+        self.assertEqual(self.breaches_of(host__a_test=hidden.replace("double edge", "float edge"),
+                                          host__some_header=public), [])
+
     def test_functions_may_differ_by_their_parameters(self):
         one = "namespace {\ndouble area(double side) { return side * side; }\n}\n"
         other = "namespace {\ndouble area(double width, double height) { return width * height; }\n}\n"
@@ -59,7 +66,11 @@ class Names(unittest.TestCase):
                 ("(const Eigen::Vector2d& point, const std::map<int, double>& all = {})",
                  "constEigen::Vector2d&,conststd::map<int,double>&"),
                 ("(double *out)", "double*"),
-                ("(std::vector<Box> boxes, Box)", "std::vector<Box>,Box")):
+                ("(std::vector<Box> boxes, Box)", "std::vector<Box>,Box"),
+                ("(unsigned int, unsigned int a)", "unsignedint,unsignedint"),
+                ("(const Box, const Box box)", "constBox,constBox"),
+                ("(double v[3], const double *w[])", "double[3],constdouble*[]"),
+                ("(bool b = x > 3, int c = f(1, 2))", "bool,int")):
             self.assertEqual(check_names.types_of(signature), types, signature)
 
     def test_members_and_public_names_are_free(self):
