@@ -25,7 +25,7 @@ SweptOutline::SweptOutline(const Footprint& outline, double heading, const Eigen
 double SweptOutline::straight_distance_to(const Eigen::Vector2d& point) const {
   double nearest = kNotMet;
   for (std::size_t i = 0; i < polygon_.size(); ++i) {
-    const LineSegment edge = polygon_.side(i);
+    const LineSegment edge = polygon_.edge(i);
     const Eigen::Vector2d side = edge.to - edge.from;
     const Eigen::Vector2d offset = point - edge.from;
     // point - distance * direction = corner + share * side
@@ -45,7 +45,7 @@ double SweptOutline::turn_around(const Eigen::Vector2d& middle, double side,
   const Eigen::Vector2d arm = point - middle;
   double least = kNotMet;
   for (std::size_t i = 0; i < polygon_.size(); ++i) {
-    const LineSegment edge = polygon_.side(i);
+    const LineSegment edge = polygon_.edge(i);
     const Eigen::Vector2d from = edge.from - middle;
     const Eigen::Vector2d along = edge.to - edge.from;
     // |from + share * along| = |arm|
@@ -66,14 +66,14 @@ double SweptOutline::turn_around(const Eigen::Vector2d& middle, double side,
 }
 
 double SweptOutline::distance_to(const Eigen::Vector2d& point) const {
-  if (polygon_.holds(point)) return direction_.dot(point) > 0.0 ? 0.0 : kNotMet;
+  if (polygon_.contains(point)) return direction_.dot(point) > 0.0 ? 0.0 : kNotMet;
   if (std::abs(curvature_) < kStraight) return straight_distance_to(point);
   const Eigen::Vector2d middle = Eigen::Vector2d{-direction_.y(), direction_.x()} / curvature_;
   return turn_around(middle, curvature_ > 0.0 ? 1.0 : -1.0, point) / std::abs(curvature_);
 }
 
 double SweptOutline::turn_to(const Eigen::Vector2d& point, bool left) const {
-  return polygon_.holds(point) ? kNotMet : turn_around(Eigen::Vector2d::Zero(), left ? 1.0 : -1.0, point);
+  return polygon_.contains(point) ? kNotMet : turn_around(Eigen::Vector2d::Zero(), left ? 1.0 : -1.0, point);
 }
 
 }  // namespace spf::host

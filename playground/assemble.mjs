@@ -21,7 +21,7 @@ const engine = await createRequire(import.meta.url)(engineScript)({ wasmBinary }
 const palette = engine.ccall("spf_palette", "string", [], []);
 
 // What both pages have: marked in that of the replay.
-const marked = text(join(replay, "replay.html")).matchAll(/<!-- shared: (\w+) -->\n(.*?)\n *<!-- end -->/gs);
+const marked = text(join(replay, "replay.html")).matchAll(/<!-- shared: ([a-z]+) -->\n(.*?)\n *<!-- end -->/gs);
 const shared = Object.fromEntries([...marked].map(([, name, markup]) => [name.toUpperCase(), markup]));
 
 const parts = {

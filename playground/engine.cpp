@@ -1,8 +1,5 @@
 #include "playground/engine.hpp"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 

@@ -1,5 +1,6 @@
 #include "sim/body.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "sim/geometry.hpp"

@@ -59,7 +59,7 @@ TEST(Body, FindsTheFirstContactThatSamplingFinds) {
       for (const Box& box : scenario.boxes) {
         const ConvexPolygon sides = polygon_of(box);
         for (std::size_t s = 0; s < 4; ++s)
-          surface.emplace_back(sides.side(s).from + share * (sides.side(s).to - sides.side(s).from));
+          surface.emplace_back(sides.edge(s).from + share * (sides.edge(s).to - sides.edge(s).from));
       }
     }
     double sampled = std::numeric_limits<double>::infinity();

@@ -81,7 +81,7 @@ void RangeSensor::sweep(const Pose2& pose_world, const std::vector<SeenDisc>& di
       continue;
     }
     const ConvexPolygon body = disc.outline->placed(disc.position_world, disc.heading);
-    for (std::size_t i = 0; i < body.size(); ++i) cast_segment(body.side(i), sweep);
+    for (std::size_t i = 0; i < body.size(); ++i) cast_segment(body.edge(i), sweep);
   }
 }
 

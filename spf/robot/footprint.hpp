@@ -27,7 +27,7 @@ class Footprint {
   [[nodiscard]] bool is_disc() const { return corners_.empty(); }
   /// Counterclockwise [m]; none of a disc.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& corners() const { return corners_; }
-  /// The corners with the centre at `position` and a heading [rad], in the frame of these.
+  /// The corners with the centre at `position` and a heading [rad], in the frame of these. Not of a disc.
   [[nodiscard]] ConvexPolygon placed(const Eigen::Vector2d& position, double heading) const;
   /// Of the largest disc around the centre within the outline [m]: what is nearer is hit whatever the
   /// heading.

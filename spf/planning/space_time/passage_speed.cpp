@@ -129,7 +129,7 @@ void PassageSpeed::prepare(const PlanRequest& request) {
   keep_legs();
   slow_down_in_turns();
   leave_room_to_brake();
-  add_delays();
+  add_delays();  // to stand is none
   stop_before_what_stands();
   if (request.give_way && request.give_way->cost_to_go >= stop_cost_) {
     waits_ = true;
@@ -187,7 +187,7 @@ void PassageSpeed::slow_down_in_turns() {
     while (last + 1 < marks_.size() && marks_[last].along < here.along + reach) ++last;
     if (here.along - marks_[first].along < kLeastPart * reach ||
         marks_[last].along - here.along < kLeastPart * reach)
-      continue;  // the path ends
+      continue;  // the path begins or ends
     const Eigen::Vector2d before = here.position_world - marks_[first].position_world;
     const Eigen::Vector2d after = marks_[last].position_world - here.position_world;
     const double angle = std::fabs(std::atan2(cross(before, after), before.dot(after)));

@@ -49,9 +49,9 @@ class PassageSpeed {
     if (cost_to_go >= stop_cost_ || cost_to_go <= exit_cost_) return cost_to_go;
     return waits_ ? 2.0 * stop_cost_ - cost_to_go : stop_cost_;  // who is to let others pass makes room
   }
-  /// How much longer [s] what is left to go (`left_to_go`) takes than at full speed: its narrow places, its
-  /// turns, and the braking before them. Without it who has a tight place to pass puts that off, beyond the
-  /// horizon, for ever.
+  /// How much longer [s] what is left to go (`left_to_go`) takes than at full speed, as far as the robot can
+  /// come: its narrow places, its turns, and the braking before them; 0 where nothing is narrow. Without it
+  /// who has a tight place to pass puts that off, beyond the horizon, for ever.
   [[nodiscard]] double delay(double left) const;
   /// The robot is nearer to a passage than it may wait.
   [[nodiscard]] bool in_the_way(double cost_to_go) const {
@@ -74,8 +74,8 @@ class PassageSpeed {
     double cost;   // [m]
     double speed;  // [m/s]
     Room room;
-    double delay = 0.0;  // [s] of what lies behind
-    double along = 0.0;  // [m] of the path
+    double delay = 0.0;  // [s] from here to the last mark
+    double along = 0.0;  // [m] of the path, from the first mark
   };
   struct Leg {
     Eigen::Vector2d from_world;
@@ -87,7 +87,7 @@ class PassageSpeed {
   [[nodiscard]] Room room_at(const PlanRequest& request, const Eigen::Vector2d& position_world,
                              const Eigen::Vector2d& ahead) const;
   [[nodiscard]] double straight_speed(const PlanRequest& request, double room) const;
-  /// First mark with no more left to go.
+  /// First mark with at most so much left to go.
   [[nodiscard]] std::vector<Mark>::const_iterator mark_at(double cost_to_go) const;
   template <class Look>
   void look_along(const Look& look) const;

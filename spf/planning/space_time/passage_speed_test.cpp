@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "spf/math/segment.hpp"
 #include "spf/planning/cost_to_go.hpp"
 
 namespace spf {
@@ -105,6 +108,69 @@ TEST_F(PassageSpeedTest, CountsNoDelayForStandingBeforeWhatStands) {
   ASSERT_NE(passage_.blocked_by(), nullptr);
   const double left = passage_.left_to_go(guide_.cost_to_go({-1.9, 0.0}));
   EXPECT_LT(passage_.delay(left), open + 2.0);
+}
+
+/// A corridor along x that turns by `angle` to the left at the origin, in `joints` equal steps.
+class BentCorridor : public ::testing::Test {
+ protected:
+  void prepare(double angle, int joints) {
+    const double step = angle / joints;
+    std::vector<Eigen::Vector2d> middle{{-4.0, 0.0}, {0.0, 0.0}};
+    for (int k = 1; k <= joints; ++k) {
+      const double length = k == joints ? 4.0 : kJoint;
+      middle.push_back(middle.back() + length * Eigen::Vector2d{std::cos(k * step), std::sin(k * step)});
+    }
+    map_ = OccupancyMap{GridFrame::covering({-6.0, -6.0}, {6.0, 6.0}, 0.025), 1.0};
+    for (double x = -6.0; x < 6.0; x += kPost)
+      for (double y = -6.0; y < 6.0; y += kPost) {
+        double nearest = 1e9;
+        for (std::size_t i = 1; i < middle.size(); ++i)
+          nearest = std::min(nearest, distance_to_segment({x, y}, {middle[i - 1], middle[i]}));
+        if (nearest > 0.5 * kWidth && nearest < 0.5 * kWidth + 2.0 * kPost)
+          map_.add_box({x - 0.5 * kPost, y - 0.5 * kPost}, {x + 0.5 * kPost, y + 0.5 * kPost});
+      }
+    const Eigen::Vector2d goal = middle.back();
+    ASSERT_EQ(guide_.update(map_, goal, {-3.5, 0.0}), CostToGoOutcome::reachable);
+    request_.head.position_world = {-3.5, 0.0};
+    request_.world.map = &map_;
+    request_.guide = &guide_;
+    passage_.prepare(request_);
+  }
+  /// Lowest limit near the bend.
+  [[nodiscard]] double slowest() const {
+    double speed = robot_.max_speed;
+    for (double x = -0.6; x < 0.3; x += 0.02)
+      speed = std::min(speed, passage_.limit(guide_.cost_to_go({x, 0.0})));
+    return speed;
+  }
+
+  static constexpr double kWidth = 0.84;  // [m]
+  static constexpr double kJoint = 0.1;   // [m]
+  static constexpr double kPost = 0.05;   // [m]
+  OccupancyMap map_{GridFrame::covering({-6.0, -6.0}, {6.0, 6.0}, 0.025), 1.0};
+  RobotParameters robot_;
+  CostToGo guide_{CostToGoParameters{}, robot_.radius, SpaceTimeParameters{}.static_margin};
+  PlanRequest request_;
+  PassageSpeed passage_{SpaceTimeParameters{}, robot_};
+};
+
+TEST_F(BentCorridor, IsDrivenTheSlowerTheMoreItTurns) {
+  prepare(1e-3, 1);
+  double last = slowest();
+  for (const double angle : {0.8, 1.5}) {
+    prepare(angle, 1);
+    EXPECT_LT(slowest(), 0.9 * last) << angle;
+    last = slowest();
+  }
+}
+
+TEST_F(BentCorridor, HasOneSpeedInHoweverManyJointsItTurns) {
+  prepare(1.5, 1);
+  ASSERT_TRUE(passage_.limits());
+  const double at_once = slowest();
+  prepare(1.5, 3);
+  EXPECT_LT(slowest(), 1.3 * at_once);
+  EXPECT_GT(slowest(), at_once / 1.3);
 }
 
 TEST_F(PassageSpeedTest, StopsBeforeWhatStandsInTheOnlyWayAndNamesIt) {
