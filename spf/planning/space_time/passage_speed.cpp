@@ -129,7 +129,7 @@ void PassageSpeed::prepare(const PlanRequest& request) {
   keep_legs();
   slow_down_in_turns();
   leave_room_to_brake();
-  add_delays();  // to stand is none
+  add_delays();  // before any stop: to stand is none
   stop_before_what_stands();
   if (request.give_way && request.give_way->cost_to_go >= stop_cost_) {
     waits_ = true;

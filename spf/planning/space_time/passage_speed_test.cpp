@@ -12,16 +12,13 @@
 namespace spf {
 namespace {
 
-/// A wall along y at x = 0 with one door, a robot of 0.3 m on its way from (-5, 0) to (5, 0).
-class PassageSpeedTest : public ::testing::Test {
+/// A robot of 0.3 m on its way along x through a map, towards the origin.
+class OnItsWay : public ::testing::Test {
  protected:
-  void prepare(double door, const std::vector<StandingDisc>& standing = {}) {
-    map_ = OccupancyMap{GridFrame::covering({-8.0, -8.0}, {8.0, 8.0}, 0.1), 2.0};
-    map_.add_box({-0.2, 0.5 * door}, {0.2, 9.0});
-    map_.add_box({-0.2, -9.0}, {0.2, -0.5 * door});
-    guide_.set_standing(standing, 1.0);
-    ASSERT_EQ(guide_.update(map_, {5.0, 0.0}, {-5.0, 0.0}), CostToGoOutcome::reachable);
-    request_.head.position_world = {-2.0, 0.0};
+  /// Looks from a position on the way from `start` to `goal`.
+  void look_from(const Eigen::Vector2d& position, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
+    ASSERT_EQ(guide_.update(map_, goal, start), CostToGoOutcome::reachable);
+    request_.head.position_world = position;
     request_.world.map = &map_;
     request_.guide = &guide_;
     passage_.prepare(request_);
@@ -33,6 +30,18 @@ class PassageSpeedTest : public ::testing::Test {
   CostToGo guide_{CostToGoParameters{}, robot_.radius, SpaceTimeParameters{}.static_margin};
   PlanRequest request_;
   PassageSpeed passage_{SpaceTimeParameters{}, robot_};
+};
+
+/// Through a wall along y at x = 0 with one door, from (-5, 0) to (5, 0).
+class PassageSpeedTest : public OnItsWay {
+ protected:
+  void prepare(double door, const std::vector<StandingDisc>& standing = {}) {
+    map_ = OccupancyMap{GridFrame::covering({-8.0, -8.0}, {8.0, 8.0}, 0.1), 2.0};
+    map_.add_box({-0.2, 0.5 * door}, {0.2, 9.0});
+    map_.add_box({-0.2, -9.0}, {0.2, -0.5 * door});
+    guide_.set_standing(standing, 1.0);
+    look_from({-2.0, 0.0}, {-5.0, 0.0}, {5.0, 0.0});
+  }
 };
 
 TEST_F(PassageSpeedTest, LimitsNothingWhereThereIsRoom) {
@@ -110,8 +119,8 @@ TEST_F(PassageSpeedTest, CountsNoDelayForStandingBeforeWhatStands) {
   EXPECT_LT(passage_.delay(left), open + 2.0);
 }
 
-/// A corridor along x that turns by `angle` to the left at the origin, in `joints` equal steps.
-class BentCorridor : public ::testing::Test {
+/// Along a corridor that turns by `angle` to the left at the origin, in `joints` equal steps.
+class BentCorridor : public OnItsWay {
  protected:
   void prepare(double angle, int joints) {
     const double step = angle / joints;
@@ -129,29 +138,18 @@ class BentCorridor : public ::testing::Test {
         if (nearest > 0.5 * kWidth && nearest < 0.5 * kWidth + 2.0 * kPost)
           map_.add_box({x - 0.5 * kPost, y - 0.5 * kPost}, {x + 0.5 * kPost, y + 0.5 * kPost});
       }
-    const Eigen::Vector2d goal = middle.back();
-    ASSERT_EQ(guide_.update(map_, goal, {-3.5, 0.0}), CostToGoOutcome::reachable);
-    request_.head.position_world = {-3.5, 0.0};
-    request_.world.map = &map_;
-    request_.guide = &guide_;
-    passage_.prepare(request_);
+    look_from({-3.5, 0.0}, {-3.5, 0.0}, middle.back());
   }
   /// Lowest limit near the bend.
   [[nodiscard]] double slowest() const {
     double speed = robot_.max_speed;
-    for (double x = -0.6; x < 0.3; x += 0.02)
-      speed = std::min(speed, passage_.limit(guide_.cost_to_go({x, 0.0})));
+    for (double x = -0.6; x < 0.3; x += 0.02) speed = std::min(speed, limit_at(x));
     return speed;
   }
 
   static constexpr double kWidth = 0.84;  // [m]
   static constexpr double kJoint = 0.1;   // [m]
   static constexpr double kPost = 0.05;   // [m]
-  OccupancyMap map_{GridFrame::covering({-6.0, -6.0}, {6.0, 6.0}, 0.025), 1.0};
-  RobotParameters robot_;
-  CostToGo guide_{CostToGoParameters{}, robot_.radius, SpaceTimeParameters{}.static_margin};
-  PlanRequest request_;
-  PassageSpeed passage_{SpaceTimeParameters{}, robot_};
 };
 
 TEST_F(BentCorridor, IsDrivenTheSlowerTheMoreItTurns) {

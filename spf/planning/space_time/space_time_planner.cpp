@@ -58,7 +58,7 @@ SpaceTimePlanner::SpaceTimePlanner(const SpaceTimeParameters& parameters, const 
   if (steers(robot_)) steering_.emplace(robot_);
 }
 
-/// The remaining path at full speed, and what its narrow places take longer [s].
+/// The remaining path at full speed, and what its narrow places and turns take longer [s].
 double SpaceTimePlanner::time_to_go(const Eigen::Vector2d& position_world, const CostToGo& guide) const {
   const double left = passage_.left_to_go(guide.cost_to_go(position_world));
   return left / settings_.max_speed + passage_.delay(left);
