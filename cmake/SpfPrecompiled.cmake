@@ -27,21 +27,13 @@ set(standard_headers <algorithm> <array> <cmath> <cstdint> <functional> <limits>
   <stdexcept> <string> <string_view> <unordered_map> <utility> <vector>)
 spf_precompiled(spf_headers_17 17 LIBRARIES Eigen3::Eigen HEADERS ${standard_headers} <Eigen/Dense>)
 set(host_headers "")
-set(program_headers "")
-set(host_libraries "")
 if(SPF_BUILD_APPS OR BUILD_ROS OR BUILD_ROS2)
+  # Not those of JSON and of command lines: what they make every source instantiate costs it more than parsing them costs the few
+  # that use them.
   set(host_headers <filesystem> <fstream> <iostream>)
-  if(SPF_BUILD_APPS)
-    find_package(nlohmann_json 3.11 REQUIRED)
-    find_package(CLI11 REQUIRED)
-    set(program_headers <CLI/CLI.hpp>)
-    list(APPEND host_headers <nlohmann/json.hpp>)
-    list(APPEND host_libraries nlohmann_json::nlohmann_json CLI11::CLI11)
-  endif()
-  spf_precompiled(spf_headers_20 20 LIBRARIES Eigen3::Eigen ${host_libraries}
-    HEADERS ${standard_headers} ${host_headers} ${program_headers} <Eigen/Dense>)
+  spf_precompiled(spf_headers_20 20 LIBRARIES Eigen3::Eigen HEADERS ${standard_headers} ${host_headers} <Eigen/Dense>)
 endif()
 if(SPF_BUILD_TESTS)
-  spf_precompiled(spf_headers_tests 20 LIBRARIES Eigen3::Eigen GTest::gtest GTest::gmock ${host_libraries}
+  spf_precompiled(spf_headers_tests 20 LIBRARIES Eigen3::Eigen GTest::gtest GTest::gmock
     HEADERS ${standard_headers} ${host_headers} <Eigen/Dense> <gmock/gmock.h> <gtest/gtest.h>)
 endif()

@@ -21,7 +21,9 @@ using Stamp = simulator::Stamp<ros2::builtin_interfaces::Time>;
 using sim::World;
 
 std::string topic_of(int robot, const char* name) {
-  return "/" + simulator::robot_name(robot) + "/" + name;
+  std::string topic{"/"};
+  topic.append(simulator::robot_name(robot)).append("/").append(name);
+  return topic;
 }
 
 }  // namespace
