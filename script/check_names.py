@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails where two sources of a room give one name to different things in their anonymous namespaces, or a source and a header
-of its room give one to a constant or a type. The sanitizers' builds and all tests compile a room in batches of sources, in
-which such names meet; which ones meet changes with every new file.
+of its room give one to a constant or a type. Builds compile a room in batches of sources, in which such names meet; which ones
+meet changes with every new file.
 
 Needs Universal Ctags; exit status 77 without it, 1 where SPF_REQUIRE_TOOLS is 1."""
 import re
@@ -13,7 +13,7 @@ from check_limits import files_of, main, tags_of
 
 BUILT_IN = (" int", " long", " char", " short", " double")  # may be a word of a type of several
 ROOMS_WITHIN = ("spf", "apps", "ros2")  # folders whose folders are rooms; elsewhere each folder is one
-NOT_BATCHED = ("bench", "fuzz", "examples", "python", "ros")
+NOT_BATCHED = ("bench", "fuzz", "examples", "python")
 
 
 def batch_of(path):

@@ -75,13 +75,13 @@ class PgmReader {
     const char* begin = bytes_.data() + at_;
     const char* end = bytes_.data() + bytes_.size();
     const char* stop = std::find_if(begin, end, [](char c) { return is_blank(c) || c == '#'; });
-    constexpr std::ptrdiff_t kLongestShown = 20;
+    constexpr std::ptrdiff_t kShownDigits = 20;
     int value = 0;
     const auto [rest, error] = std::from_chars(begin, stop, value);
     if (begin == end) {
       refuse(std::string{"ends before "} + name);
     } else if (error != std::errc{} || rest != stop || value < low || value > high) {
-      refuse(std::string{name} + " = " + std::string{begin, begin + std::min(stop - begin, kLongestShown)} +
+      refuse(std::string{name} + " = " + std::string{begin, begin + std::min(stop - begin, kShownDigits)} +
              " must be a whole number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
     } else {
       at_ = static_cast<std::size_t>(stop - bytes_.data());

@@ -19,7 +19,7 @@ using spf::sim::LoggedTick;
 using Commands = std::vector<Eigen::Vector3d>;
 
 constexpr int kRobot = 3;
-const ClockEdge kClock{ros::Time{1700000000, 0}};
+const ClockEdge kSimulatorClock{ros::Time{1700000000, 0}};
 const std::string kFrame = "map";
 
 spf::sim::Scenario sensed_swap() {
@@ -35,7 +35,7 @@ spf::sim::Scenario sensed_swap() {
 // ---- what the wire can hold
 
 double held(double time) {
-  return kClock.seconds(kClock.time(time));
+  return kSimulatorClock.seconds(kSimulatorClock.time(time));
 }
 
 spf::Pose2 held(spf::Pose2 pose) {
@@ -57,8 +57,9 @@ std::vector<LoggedTick> of_ros(std::vector<LoggedTick> ticks) {
     tick.time = held(tick.time);
     tick.input.pose = {held(tick.input.pose.time), held(tick.input.pose.pose_world)};
     for (spf::HeardMessage& message : tick.input.messages)
-      message =
-          from_message(to_message(StampedTrajectory{message, {}}, kClock, kFrame), kClock, kFrame)->message;
+      message = from_message(to_message(StampedTrajectory{message, {}}, kSimulatorClock, kFrame),
+                             kSimulatorClock, kFrame)
+                    ->message;
     for (spf::host::SensedWorld& seen : tick.input.seen) {
       seen.observation.time = held(seen.observation.time);
       if (!seen.observation.scan) continue;
@@ -103,15 +104,16 @@ class CompositionTest : public ::testing::Test {
     planner.planner().start(map, task.start, 0.0);
     Commands commands;
     for (const LoggedTick& tick : ticks) {
-      const double now = kClock.seconds(kClock.time(tick.time));
-      const spf::PoseMeasurement pose{kClock.seconds(kClock.time(tick.input.pose.time)),
+      const double now = kSimulatorClock.seconds(kSimulatorClock.time(tick.time));
+      const spf::PoseMeasurement pose{kSimulatorClock.seconds(kSimulatorClock.time(tick.input.pose.time)),
                                       *from_message(to_message(tick.input.pose.pose_world))};
       planner.add_pose(pose, now);
       tracker.add_pose(pose, now);
       for (const spf::HeardMessage& message : tick.input.messages)
         planner.add_message(over_wire(message, std::nullopt), now);
       for (const spf::host::SensedWorld& seen : tick.input.seen) {
-        const spf::host::SensedWorld told = *from_message(to_message(seen, kClock, kFrame), kClock, kFrame);
+        const spf::host::SensedWorld told =
+            *from_message(to_message(seen, kSimulatorClock, kFrame), kSimulatorClock, kFrame);
         if (told.observation.scan)
           tracker.add_scan(told.observation.time, *told.observation.scan, spf::Pose2{}, now);
         planner.add_observation(told, now);
@@ -122,8 +124,8 @@ class CompositionTest : public ::testing::Test {
       commands.push_back(tracker.step(now).wheel_speeds);
       spf_empc_msgs::WheelSpeeds wheels =
           to_message(share_that_is_told * commands.back(), tracker.tracker().max_wheel_speed());
-      wheels.header.stamp = kClock.time(now);
-      planner.add_command(kClock.seconds(wheels.header.stamp), *from_message(wheels, 3), now,
+      wheels.header.stamp = kSimulatorClock.time(now);
+      planner.add_command(kSimulatorClock.seconds(wheels.header.stamp), *from_message(wheels, 3), now,
                           tracker.tracker().command().guard.action);
     }
     return commands;
@@ -140,7 +142,7 @@ class CompositionTest : public ::testing::Test {
   [[nodiscard]] static spf::TrajectoryMessage over_wire(const spf::TrajectoryMessage& message,
                                                         std::optional<double> observed) {
     const StampedTrajectory stamped{message, observed};
-    return from_message(to_message(stamped, kClock, kFrame), kClock, kFrame)->message;
+    return from_message(to_message(stamped, kSimulatorClock, kFrame), kSimulatorClock, kFrame)->message;
   }
 };
 
