@@ -27,6 +27,8 @@ class Restarts(GoalsTest):
         self.assertTrue(wait_until(lambda: self.distance(x, 0.0) < 0.08, 10.0), self.robot.status.reason)
         self.assertTrue(wait_until(lambda: self.robot.status.goal_outcome == "reached", 10.0), self.robot.status.reason)
         self.goes_on_after("planner_node")
+        # That the goal is over is told first and noted at the parameter server right after.
+        self.assertTrue(wait_until(lambda: not rospy.has_param(self.kept_goal()), 5.0))
         self.robot.kill("planner_node")
         self.robot.start("planner_node")
         self.assertTrue(wait_until(lambda: self.robot.status.goal_outcome == "none", 10.0))

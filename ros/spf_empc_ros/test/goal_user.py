@@ -78,11 +78,15 @@ class GoalsTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.world.end()
-        kept = "/robot%d/%s/kept_goal" % (cls.number, cls.planner)
         try:  # of a test that failed
-            rospy.delete_param(kept)
+            rospy.delete_param(cls.kept_goal())
         except KeyError:
             pass
+
+    @classmethod
+    def kept_goal(cls):
+        """The parameter by which a goal outlives its nodes."""
+        return "/robot%d/%s/kept_goal" % (cls.number, cls.planner)
 
     def distance(self, x, y):
         return math.hypot(self.robot.x - x, self.robot.y - y)
