@@ -1,11 +1,13 @@
 """A fleet in the simulator, as 05_fleet: a scenario as a dict with numpy arrays, and its recording as arrays."""
+from math import cos, pi, sin
+
 import numpy as np
 import spf
 
 from picture import Picture
 
-angle = np.linspace(0, 2 * np.pi, 8, endpoint=False)
-start = 4 * np.column_stack([np.cos(angle), np.sin(angle)])
+angles = [2 * pi * robot / 8 for robot in range(8)]
+start = 4 * np.array([[cos(angle), sin(angle)] for angle in angles])
 scenario = spf.Scenario.from_dict({
     "family": "explicit",
     "border": {"low": [-5.5, -5.5], "high": [5.5, 5.5]},
