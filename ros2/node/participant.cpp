@@ -256,7 +256,10 @@ std::string domain_settings(const DomainOptions& options) {
   // Not by its name, which a bare machine does not know.
   if (options.localhost_only) xml += "<Peers><Peer address=\"127.0.0.1\"/></Peers>";
   xml += "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>";
-  xml += "</Discovery></Domain></CycloneDDS>";
+  xml += "</Discovery>";
+  // One thread receives: several are woken at the end by a packet that each sends to itself, for which they
+  // wait for ever where the network is down.
+  xml += "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></Internal></Domain></CycloneDDS>";
   const std::string more = variable("CYCLONEDDS_URI");
   return more.empty() ? xml : xml + "," + more;
 }
