@@ -24,6 +24,6 @@ if(CATKIN_ENABLE_TESTING)
   # Skipped where network namespaces cannot be made.
   add_test(NAME ros.two_machines COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh /usr/bin/python3
     ${CMAKE_CURRENT_SOURCE_DIR}/test/two_machines.py)
-  set_tests_properties(ros.two_machines PROPERTIES LABELS ros RESOURCE_LOCK ros COST 50 TIMEOUT 300 SKIP_RETURN_CODE 77
+  set_tests_properties(ros.two_machines PROPERTIES LABELS ros RESOURCE_LOCK "ros;two_machines" COST 50 TIMEOUT 300 SKIP_RETURN_CODE 77
     ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 endif()

@@ -5,14 +5,14 @@ reach their goals, must have heard each other over the cable, and robot 1 must s
 Exit status 77 (skipped) where the kernel or the rights do not allow namespaces.
 """
 import json
-import os
-import re
 import signal
-import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "script"))
+from machines import ADDRESS, Unavailable, longest_gap, two_machines  # noqa: E402
 
 SCENARIO = """\
 family: explicit
@@ -21,72 +21,8 @@ robots:
   - {start: [4, -1], goal: [-4, 1]}
 border: {low: [-8, -6], high: [8, 6]}
 """
-ADDRESS = {"a": "10.83.0.1", "b": "10.83.0.2"}
 MASTER = f"http://{ADDRESS['a']}:11311"
 CUT = 1.5  # [s] without the cable
-
-
-def ip(*arguments):
-    subprocess.run(["ip", *arguments], check=True, capture_output=True, text=True)
-
-
-class Machine:
-    """A network namespace with one end of the cable."""
-
-    def __init__(self, letter, folder):
-        self.name = f"spf{os.getpid()}{letter}"
-        self.address = ADDRESS[letter]
-        self.folder = folder / letter
-        self.folder.mkdir()
-        self.started = []
-        ip("netns", "add", self.name)
-
-    def run(self, *command):
-        ip("netns", "exec", self.name, *command)
-
-    def connect(self, interface):
-        self.interface = interface
-        ip("link", "set", interface, "netns", self.name)
-        self.run("ip", "address", "add", f"{self.address}/24", "dev", interface)
-        self.run("ip", "link", "set", interface, "up")
-        self.run("ip", "link", "set", "lo", "up")
-
-    def start(self, name, *command):
-        environment = dict(os.environ, ROS_MASTER_URI=MASTER, ROS_IP=self.address, ROS_HOME=str(self.folder),
-                           ROS_LOG_DIR=str(self.folder))
-        environment.pop("ROS_HOSTNAME", None)
-        with open(self.folder / f"{name}.log", "w", encoding="utf-8") as log:
-            process = subprocess.Popen(["ip", "netns", "exec", self.name, *command], env=environment, stdout=log,
-                                       stderr=subprocess.STDOUT, start_new_session=True)
-        self.started.append(process)
-        return process
-
-    def log(self, name):
-        return (self.folder / f"{name}.log").read_text(encoding="utf-8", errors="replace")
-
-    def processes(self):
-        found = subprocess.run(["ip", "netns", "pids", self.name], capture_output=True, text=True, check=False)
-        return [int(word) for word in found.stdout.split()]
-
-    def remove(self):
-        for process in reversed(self.started):
-            if process.poll() is None:
-                process.send_signal(signal.SIGINT)
-        for process in self.started:
-            try:
-                process.wait(20)
-            except subprocess.TimeoutExpired:
-                pass
-        for process in self.processes():
-            os.kill(process, signal.SIGKILL)
-        for process in self.started:
-            process.wait()
-        subprocess.run(["ip", "netns", "delete", self.name], check=False, capture_output=True)
-
-
-def longest_gap(log, robot):
-    """Between two commands that reached a base, as the simulator tells at its end [s]."""
-    return float(re.search(rf"robot{robot}: \d+ commands, \d+ late, longest gap ([\d.]+) s", log).group(1))
 
 
 def drive_and_pull(first, second, folder):
@@ -101,9 +37,9 @@ def drive_and_pull(first, second, folder):
     while watch.poll() is None and time.monotonic() < deadline:
         time.sleep(0.2)
         if not cut and (folder / "on_way").exists():
-            second.run("ip", "link", "set", second.interface, "down")
+            second.pull()
             time.sleep(CUT)
-            second.run("ip", "link", "set", second.interface, "up")
+            second.plug()
             cut = True
     fleet.send_signal(signal.SIGINT)
     fleet.wait(30)
@@ -127,24 +63,17 @@ def drive_and_pull(first, second, folder):
 
 
 def main():
-    machines = []
     with tempfile.TemporaryDirectory(prefix="spf-two-machines-") as name:
         folder = Path(name)
         try:
-            try:
-                for letter in "ab":
-                    machines.append(Machine(letter, folder))
-                ends = [f"spf{os.getpid() % 100000}{machine.name[-1]}0" for machine in machines]
-                ip("link", "add", ends[0], "type", "veth", "peer", "name", ends[1])
-                for machine, end in zip(machines, ends):
-                    machine.connect(end)
-            except (OSError, subprocess.CalledProcessError) as error:
-                print(f"skipped: no network namespaces here ({getattr(error, 'stderr', '') or error})")
-                return 77
-            problems = drive_and_pull(*machines, folder)
-        finally:
-            for machine in reversed(machines):
-                machine.remove()
+            with two_machines(folder) as machines:
+                for machine in machines:
+                    machine.variables = {"ROS_MASTER_URI": MASTER, "ROS_IP": machine.address, "ROS_HOSTNAME": None,
+                                         "ROS_HOME": str(machine.folder), "ROS_LOG_DIR": str(machine.folder)}
+                problems = drive_and_pull(*machines, folder)
+        except Unavailable as error:
+            print(f"skipped: no network namespaces here ({error})")
+            return 77
     print("\n".join(problems) if problems else "both machines' robots arrived")
     return 1 if problems else 0
 
