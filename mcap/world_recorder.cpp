@@ -21,7 +21,7 @@ using Stamp = simulator::Stamp<ros2::builtin_interfaces::Time>;
 using sim::World;
 
 std::string topic_of(int robot, const char* name) {
-  std::string topic{"/"};
+  std::string topic{"/"};  // gcc 12 warns of an overflow in a sum of strings here, where there is none
   topic.append(simulator::robot_name(robot)).append("/").append(name);
   return topic;
 }

@@ -4,7 +4,9 @@ import os
 import re
 import signal
 import subprocess
+import tempfile
 import time
+from pathlib import Path
 
 ADDRESS = {"a": "10.83.0.1", "b": "10.83.0.2"}
 
@@ -104,3 +106,16 @@ def two_machines(folder):
 def longest_gap(log, robot):
     """Between two commands that reached a base, as the simulator tells at its end [s]."""
     return float(re.search(rf"robot{robot}: \d+ commands, \d+ late, longest gap ([\d.]+) s", log).group(1))
+
+
+def test_on_two_machines(drive):
+    """A test's exit status: `drive(first, second, folder)` tells what is wrong, in a list. 77 (skipped) without namespaces."""
+    with tempfile.TemporaryDirectory(prefix="spf-two-machines-") as name:
+        try:
+            with two_machines(Path(name)) as machines:
+                problems = drive(*machines, Path(name))
+        except Unavailable as error:
+            print(f"skipped: no network namespaces here ({error})")
+            return 77
+    print("\n".join(problems) if problems else "both machines' robots arrived")
+    return 1 if problems else 0

@@ -7,12 +7,11 @@ Exit status 77 (skipped) where the kernel or the rights do not allow namespaces.
 import json
 import signal
 import sys
-import tempfile
 import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "script"))
-from machines import ADDRESS, Unavailable, longest_gap, two_machines  # noqa: E402
+from machines import ADDRESS, longest_gap, test_on_two_machines  # noqa: E402
 
 SCENARIO = """\
 family: explicit
@@ -26,6 +25,9 @@ CUT = 1.5  # [s] without the cable
 
 
 def drive_and_pull(first, second, folder):
+    for machine in (first, second):
+        machine.variables = {"ROS_MASTER_URI": MASTER, "ROS_IP": machine.address, "ROS_HOSTNAME": None,
+                             "ROS_HOME": str(machine.folder), "ROS_LOG_DIR": str(machine.folder)}
     scenario = folder / "scenario.yaml"
     scenario.write_text(SCENARIO, encoding="utf-8")
     fleet = first.start("fleet", "roslaunch", "spf_empc_ros", "fleet.launch", f"scenario:={scenario}", "robots:=1")
@@ -62,21 +64,5 @@ def drive_and_pull(first, second, folder):
     return problems
 
 
-def main():
-    with tempfile.TemporaryDirectory(prefix="spf-two-machines-") as name:
-        folder = Path(name)
-        try:
-            with two_machines(folder) as machines:
-                for machine in machines:
-                    machine.variables = {"ROS_MASTER_URI": MASTER, "ROS_IP": machine.address, "ROS_HOSTNAME": None,
-                                         "ROS_HOME": str(machine.folder), "ROS_LOG_DIR": str(machine.folder)}
-                problems = drive_and_pull(*machines, folder)
-        except Unavailable as error:
-            print(f"skipped: no network namespaces here ({error})")
-            return 77
-    print("\n".join(problems) if problems else "both machines' robots arrived")
-    return 1 if problems else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(test_on_two_machines(drive_and_pull))

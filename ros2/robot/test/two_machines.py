@@ -6,12 +6,11 @@ asked to, without a network. Exit status 77 (skipped) where the kernel or the ri
 """
 import re
 import sys
-import tempfile
 import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "script"))
-from machines import Unavailable, longest_gap, two_machines  # noqa: E402
+from machines import longest_gap, test_on_two_machines  # noqa: E402
 
 SCENARIO = """\
 family: explicit
@@ -73,18 +72,6 @@ def drive_and_pull(first, second, folder, program, config):
     return problems
 
 
-def main():
-    program, config = (str(Path(argument).resolve()) for argument in sys.argv[1:])
-    with tempfile.TemporaryDirectory(prefix="spf-two-machines-") as name:
-        try:
-            with two_machines(Path(name)) as machines:
-                problems = drive_and_pull(*machines, Path(name), program, config)
-        except Unavailable as error:
-            print(f"skipped: no network namespaces here ({error})")
-            return 77
-    print("\n".join(problems) if problems else "both machines' robots arrived")
-    return 1 if problems else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    paths = [str(Path(argument).resolve()) for argument in sys.argv[1:]]
+    sys.exit(test_on_two_machines(lambda first, second, folder: drive_and_pull(first, second, folder, *paths)))
