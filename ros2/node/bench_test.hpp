@@ -14,18 +14,24 @@ namespace ros2 {
 
 inline constexpr double kPatience = 10.0;  // [s] for what takes milliseconds on an idle machine
 
-/// Settings of CycloneDDS for what is started from now on, beside those of the tests; empty: none.
-inline std::string& more_settings() {
-  static std::string settings;
-  return settings;
-}
+/// While it lives, settings of CycloneDDS for what is started, beside those of the tests.
+class MoreSettings {
+ public:
+  explicit MoreSettings(const std::string& settings) { value() = "," + settings; }
+  ~MoreSettings() { value().clear(); }
+  MoreSettings(const MoreSettings&) = delete;
+  MoreSettings& operator=(const MoreSettings&) = delete;
+  static std::string& value() {
+    static std::string settings;
+    return settings;
+  }
+};
 
 /// A domain that no robot uses, with a tag by which tests that run at the same time do not hear each other.
 inline DomainOptions test_domain() {
   const std::string tag = "spf_test_" + std::to_string(getpid());
-  std::string settings =
-      "<CycloneDDS><Domain><Discovery><Tag>" + tag + "</Tag></Discovery></Domain></CycloneDDS>";
-  if (!more_settings().empty()) settings += "," + more_settings();
+  const std::string settings = "<CycloneDDS><Domain><Discovery><Tag>" + tag +
+                               "</Tag></Discovery></Domain></CycloneDDS>" + MoreSettings::value();
   setenv("CYCLONEDDS_URI", settings.c_str(), 1);
   DomainOptions options;
   options.domain_id = 211;

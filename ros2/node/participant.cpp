@@ -255,8 +255,8 @@ std::string domain_settings(const DomainOptions& options) {
   xml += "<Discovery>";
   // Not by its name, which a bare machine does not know.
   if (options.localhost_only) xml += "<Peers><Peer address=\"127.0.0.1\"/></Peers>";
-  // As many as there are ports for in a domain: ROS 2's own 32 would end with ten robots of three processes on a
-  // host. Who looks at 32 alone is found by us, and answers.
+  // As many as there are ports for in a domain: ROS 2's own 32 would end with ten robots of three processes
+  // on a host. Who looks at 32 alone is found by us, and answers.
   xml += "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>";
   xml += "</Discovery>";
   // One thread receives: several are woken at the end by a packet that each sends to itself, for which they

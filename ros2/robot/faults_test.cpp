@@ -190,22 +190,19 @@ TEST_F(RobotFaults, AnotherRobotOfItsNumberIsNamedAndPeersOfOtherClocksAndFrames
 }
 
 TEST(LossyNetworkSlow, WithThreeOfTenPacketsLostARobotArrives) {
-  ros2::more_settings() =
+  const ros2::MoreSettings lossy{
       "<CycloneDDS><Domain><Internal><Test><XmitLossiness>300</XmitLossiness></Test></Internal></Domain></"
-      "CycloneDDS>";
-  {
-    Program robot{robot_arguments(3)};
-    World world;
-    ASSERT_TRUE(world.wait_for_robots());
-    for (int i = 0; i < 20; ++i) ASSERT_TRUE(world.go_on()) << i;
-    for (int i = 0; i < 10 && world.base().status().goal_outcome != "reached"; ++i) {
-      if (i == 0) world.base().send_goal(1.5, 0.0, 0.0);
-      (void)world.tenths_until(30, [&] { return world.base().status().goal_outcome == "reached"; });
-    }
-    EXPECT_EQ(world.base().status().goal_outcome, "reached") << world.base().status().reason;
-    EXPECT_LT((world.base().pose().position_world - Eigen::Vector2d{1.5, 0.0}).norm(), 0.15);
+      "CycloneDDS>"};
+  Program robot{robot_arguments(3)};
+  World world;
+  ASSERT_TRUE(world.wait_for_robots());
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(world.go_on()) << i;
+  for (int i = 0; i < 10 && world.base().status().goal_outcome != "reached"; ++i) {
+    if (i == 0) world.base().send_goal(1.5, 0.0, 0.0);
+    (void)world.tenths_until(30, [&] { return world.base().status().goal_outcome == "reached"; });
   }
-  ros2::more_settings().clear();
+  EXPECT_EQ(world.base().status().goal_outcome, "reached") << world.base().status().reason;
+  EXPECT_LT((world.base().pose().position_world - Eigen::Vector2d{1.5, 0.0}).norm(), 0.15);
 }
 
 /// Carries what each robot tells its peers to the other's topic, with loss and delay.
