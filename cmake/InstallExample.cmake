@@ -23,8 +23,10 @@ if(CCACHE)  # as for the library itself
   set(ENV{CCACHE_NOHASHDIR} 1)
   set(ENV{CCACHE_SLOPPINESS} pch_defines,time_macros)
 endif()
-# Type None: the library is optimised, and a quick compiler counts more than quick examples.
+# Type None: the library is optimised, and a quick compiler counts more than quick examples. What nobody set of a matrix is NaN,
+# so that using it shows in every run.
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/examples -B ${work}/build -D CMAKE_PREFIX_PATH=${work}/prefix
-  -D CMAKE_CXX_COMPILER=${CXX_COMPILER} -D CMAKE_BUILD_TYPE=None)
+  -D CMAKE_CXX_COMPILER=${CXX_COMPILER} -D CMAKE_BUILD_TYPE=None
+  -D CMAKE_CXX_FLAGS=-DEIGEN_INITIALIZE_MATRICES_BY_NAN)
 run(${CMAKE_COMMAND} --build ${work}/build --config Release)
 run(${SOURCE_DIR}/script/example_pictures --programs ${work}/build)

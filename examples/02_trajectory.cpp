@@ -12,7 +12,8 @@ int main() {
   waypoints << 2.0, 4.0, 6.0,  //
       1.2, -0.8, 1.0;
   const Eigen::Vector2d start{0.0, 0.0}, goal{8.0, 0.0};
-  const spf::MincoEnds rest_to_rest{{start, {}, {}}, {goal, {}, {}}};
+  const Eigen::Vector2d rest = Eigen::Vector2d::Zero();  // Eigen leaves what is given as {} to chance
+  const spf::MincoEnds rest_to_rest{{start, rest, rest}, {goal, rest, rest}};
 
   Picture picture{{-0.5, -1.6}, {8.5, 2.2}};
   for (int i = 0; i < waypoints.cols(); ++i) picture.disc(waypoints.col(i), 0.12, "muted", 0.3);

@@ -114,6 +114,9 @@ def test_on_two_machines(drive):
         try:
             with two_machines(Path(name)) as machines:
                 problems = drive(*machines, Path(name))
+            if problems:  # what the simulator and the robots said last
+                for log in sorted(Path(name).glob("*/*.log")):
+                    print(f"-- {log.name}:", *log.read_text(encoding="utf-8", errors="replace").splitlines()[-15:], sep="\n")
         except Unavailable as error:
             print(f"skipped: no network namespaces here ({error})")
             return 77

@@ -31,6 +31,15 @@ std::string text(const char* format, Values... values) {
   return line.data();
 }
 
+/// How far from its goal, and how fast, a robot is: " (0.12 m away, 0.00 m/s)".
+std::string place(const sim::World& world, int robot) {
+  const sim::RobotTruth& truth = world.robots()[static_cast<std::size_t>(robot)];
+  const std::optional<host::Goal>& goal = world.goal(robot);
+  if (!goal) return " (no goal)";
+  return text(" (%.2f m away, %.2f m/s)", (goal->position_world - truth.pose.position_world).norm(),
+              truth.velocity_world.norm());
+}
+
 }  // namespace
 
 Server::Server(const Settings& settings)
@@ -166,7 +175,8 @@ std::string Server::summary() const {
   for (const sim::RobotResult& robot : result.robots) arrived += robot.arrived ? 1U : 0U;
   std::string away;
   for (std::size_t i = 0; i < result.robots.size(); ++i)
-    if (!result.robots[i].arrived) away += (away.empty() ? "" : ", ") + std::to_string(i);
+    if (!result.robots[i].arrived)
+      away += (away.empty() ? "" : ", ") + std::to_string(i) + place(world_, static_cast<int>(i));
   const std::size_t contacts = result.contacts.size();
   const std::string line =
       text("trial %d: %s after %.2f s, %zu of %zu robots at goal, %zu contact%s", settings_.scenario.trial,
