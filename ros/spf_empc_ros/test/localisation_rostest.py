@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Odometry in a frame of its own that a localisation places: what it does not tell, what it corrects, a map that is told
-again, another robot of the same number, and one level for the robot that is good only when all is well."""
+again, a second node of a name that is taken, and one level for the robot that is good only when all is well."""
 import sys
 import time
 import unittest
@@ -8,13 +8,12 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticStatus
-from spf_empc_msgs.msg import Trajectory
 
-from malformed_rostest import peer
 from robot_world import Robot, World, braking_begins, drive, hall, stands, wait_until
 
 STALE = 0.3  # [s] TeamParameters::stale_time
-LATEST = STALE + 0.1 + 0.05 + 0.05  # as in sensing_rostest.py
+# [s] begins within 0.1 s, seen at the next control tick; the rest is for a busy machine.
+LATEST = STALE + 0.1 + 0.05 + 0.05
 
 
 class Localisation(unittest.TestCase):
@@ -68,40 +67,6 @@ class Localisation(unittest.TestCase):
             slowest = min(slowest, robot.speed())
         print("slowest: %.2f m/s" % slowest)
         self.assertGreater(slowest, 0.7)
-
-    def test_another_robot_of_the_same_number(self):
-        swarm = rospy.Publisher("/swarm/trajectories", Trajectory, queue_size=10)
-        self.assertTrue(drive(self.robot), self.robot.status.reason)
-        end = time.monotonic() + 2.0
-        number = 1
-        while time.monotonic() < end:
-            swarm.publish(peer(0, number, self.robot.x, 30.0, rospy.Time.now()))
-            number += 1
-            time.sleep(0.1)
-        self.assert_level(DiagnosticStatus.ERROR, "robot 0: another robot has this number: " + rospy.get_name())
-        self.assert_level(DiagnosticStatus.OK, seconds=8.0)
-
-    def test_a_peer_with_another_clock_and_one_of_another_frame(self):
-        swarm = rospy.Publisher("/swarm/trajectories", Trajectory, queue_size=10)
-        self.assertTrue(drive(self.robot), self.robot.status.reason)
-        for number in range(1, 15):
-            swarm.publish(peer(5, number, self.robot.x, 30.0, rospy.Time.now() + rospy.Duration(0.4)))
-            elsewhere = peer(6, number, self.robot.x, 30.0, rospy.Time.now())
-            elsewhere.header.frame_id = "another_map"
-            swarm.publish(elsewhere)
-            time.sleep(0.1)
-        self.assert_level(DiagnosticStatus.ERROR, "robot 5: its clock is 0.4 s ahead")
-        self.assert_level(DiagnosticStatus.ERROR, "robot 6: its frame is 'another_map'")
-        self.assert_level(DiagnosticStatus.OK, seconds=20.0)
-
-    def test_each_node_that_is_killed_is_named(self):
-        for program in ("tracker_node", "perception_node", "planner_node"):
-            self.assertTrue(drive(self.robot, 30.0), self.robot.status.reason)
-            self.assert_level(DiagnosticStatus.OK)
-            self.robot.kill(program)
-            self.assert_level(DiagnosticStatus.ERROR, program.replace("_node", "") + ": silent", 4.0)
-            self.robot.start(program, "_base_frame:=base_footprint")
-            self.assert_level(DiagnosticStatus.OK, "moving", 20.0)
 
     def test_a_second_node_of_the_same_name_does_not_start(self):
         self.assertTrue(drive(self.robot), self.robot.status.reason)

@@ -2,7 +2,6 @@
 fail. Nodes run as processes of their own, which can be killed and started again."""
 import math
 import os
-import random
 import signal
 import subprocess
 import tempfile
@@ -42,8 +41,6 @@ class Robot:
         self.odom_on = self.scan_on = self.obstacles_on = self.localised = True
         self.odom_frame, self.base_frame = "map", "robot%d/base_link" % number
         self.map_to_odom = (0.0, 0.0, 0.0)  # x, y, heading of the odometry's frame, told by tf unless it is the map's
-        self.distort = lambda x, y: (x, y)
-        self.held = False  # by somebody: its wheels spin
         self.walkers = []  # (radius [m], function of the time [s] that gives x, y): what its scanner meets
         self.largest_speed = 0.0  # [m/s] of the commands
         self.changes = []  # (time [s], change [m/s]) from one command to the next
@@ -128,8 +125,6 @@ class Robot:
     def move(self, dt):
         if time.monotonic() - self.command_time > BASE_TIMEOUT:
             self.command = Twist()
-        if self.held:
-            return
         c, s = math.cos(self.heading), math.sin(self.heading)
         self.x += dt * (c * self.command.linear.x - s * self.command.linear.y)
         self.y += dt * (s * self.command.linear.x + c * self.command.linear.y)
@@ -140,7 +135,7 @@ class Robot:
             message = Odometry()
             message.header.stamp, message.header.frame_id = stamp, self.odom_frame
             message.child_frame_id = self.base_frame
-            x, y = self.distort(self.x, self.y)
+            x, y = self.x, self.y
             left, up, turn = self.map_to_odom
             c, s = math.cos(turn), math.sin(turn)
             message.pose.pose.position.x = c * (x - left) + s * (y - up)
@@ -294,14 +289,6 @@ def drive(robot, seconds=20.0):
     return wait_until(under_way, seconds)
 
 
-def steady(robot, seconds=10.0):
-    """Waits until its speed has hardly changed for half a second."""
-    def find():
-        latest = [speed for stamp, speed in list(robot.speeds) if stamp > robot.last["odom"] - 0.5]
-        return len(latest) > 10 and max(latest) - min(latest) < 0.02
-    return wait_until(find, seconds)
-
-
 def braking_begins(robot, after, longest=3.0):
     """The stamp [s] of the first command that is clearly slower than one before it, from a time on; None: never."""
     def find():
@@ -319,31 +306,6 @@ def braking_begins(robot, after, longest=3.0):
 
 def stands(robot, seconds=3.0):
     return wait_until(lambda: robot.speed() < 0.01, seconds)
-
-
-class LossyAir:
-    """Carries broadcasts from each robot's topic to the others', with loss and delay."""
-
-    def __init__(self, topics, message_type, loss, longest_delay, seed=1):
-        self.random = random.Random(seed)
-        self.loss, self.longest_delay = loss, longest_delay
-        self.sent = self.lost = 0
-        self.publishers = {topic: rospy.Publisher(topic, message_type, queue_size=50) for topic in topics}
-        for number, topic in enumerate(topics):
-            rospy.Subscriber(topic, message_type, self.carry, callback_args=(number, topic), tcp_nodelay=True)
-
-    def carry(self, message, source):
-        number, topic = source
-        if message.robot_id != number:
-            return  # carried here by us
-        for other, publisher in self.publishers.items():
-            if other == topic:
-                continue
-            self.sent += 1
-            if self.random.random() < self.loss:
-                self.lost += 1
-            else:
-                threading.Timer(self.random.uniform(0.0, self.longest_delay), publisher.publish, [message]).start()
 
 
 class OneRobotTest(unittest.TestCase):
