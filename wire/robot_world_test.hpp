@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -78,20 +77,31 @@ class RobotBase {
   [[nodiscard]] const Pose2& pose() const { return pose_; }
   [[nodiscard]] const Status& status() const { return status_; }
   [[nodiscard]] double speed() const { return speed_of(twist_); }  ///< [m/s] as told
+  [[nodiscard]] Eigen::Vector2d velocity_world() const {           ///< [m/s] as told
+    return Eigen::Rotation2D<double>{pose_.heading} * Eigen::Vector2d{twist_.linear.x, twist_.linear.y};
+  }
   /// Its commands and what it says of itself.
   [[nodiscard]] bool heard_since(Nanoseconds time) const {
     return commanded_ > time && Ros::nanoseconds_of(status_.header.stamp) > time;
   }
-  /// When it was commanded first to be clearly slower than before, from a time on: two commands at its least
-  /// braking.
-  [[nodiscard]] std::optional<Nanoseconds> braked_since(Nanoseconds time) const {
+  /// When it was commanded last to be about as fast as ever since a time: then it began to brake, if it
+  /// stands.
+  [[nodiscard]] Nanoseconds last_fast(Nanoseconds since) const {
     double fastest = 0.0;
+    Nanoseconds last = since;
     for (const Command& command : commands_) {
-      if (command.time < time) continue;
-      if (command.speed < fastest - 0.09) return command.time;
+      if (command.time < since) continue;
       fastest = std::max(fastest, command.speed);
+      if (command.speed > fastest - 0.09) last = command.time;
     }
-    return std::nullopt;
+    return last;
+  }
+  /// [m/s] of the commands since a time.
+  [[nodiscard]] double slowest_since(Nanoseconds since) const {
+    double slowest = std::numeric_limits<double>::infinity();
+    for (const Command& command : commands_)
+      if (command.time >= since) slowest = std::min(slowest, command.speed);
+    return slowest;
   }
   /// Fails where a command was beyond the limits of the robot [m/s], [m/s^2]; a guard alone may stop it
   /// harder.
@@ -127,7 +137,7 @@ class RobotBase {
   }
   void move(Nanoseconds now) {
     now_ = now;
-    if (now - commanded_ > 50 * kTick) twist_ = {};
+    if (commands_.empty() || now - commands_.back().time > 50 * kTick) twist_ = {};
     const double seconds = 1e-9 * static_cast<double>(kTick);
     if (!held_)
       pose_ = {moved(pose_, Eigen::Vector2d{twist_.linear.x, twist_.linear.y} * seconds),
