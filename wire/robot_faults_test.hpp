@@ -5,114 +5,19 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <deque>
 #include <limits>
-#include <map>
-#include <memory>
 #include <optional>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "wire/robot_world_test.hpp"
+#include "wire/robot_under_way_test.hpp"
 
 namespace spf::wire {
 
-inline constexpr double kMaxSpeed = 1.0;         // [m/s] of a robot without a file of its own
-inline constexpr double kMaxAcceleration = 1.0;  // [m/s^2]
-// Tenths of a second until it stands: 1 m/s at 1 m/s^2, and back to where its plan ends, which the clock lets
-// come some 0.2 s late.
-inline constexpr int kStanding = 40;
-
-/// A robot under way, and what is said about it.
 template <class Ros>
-class RobotFaults : public testing::Test {
- protected:
-  using Base = RobotBase<Ros>;
-  using World = RobotWorld<Ros>;
-
-  void start(const std::vector<std::string>& roles = {"robot"}) {
-    for (const std::string& role : roles) start_part(role);
-    world_.emplace();
-    diagnostics_ = world_->ros().template subscribe<typename Ros::Diagnostics>(
-        "/diagnostics", 50, [this](const typename Ros::Diagnostics& array) {
-          for (const auto& status : array.status) said_[status.name] = status.message;
-        });
-    ASSERT_TRUE(world_->wait_for_robots(static_cast<int>(roles.size())));
-    for (int i = 0; i < 20; ++i) ASSERT_TRUE(world_->go_on()) << i;
-    drive();
-  }
-  void start_part(const std::string& role) { parts_[role] = std::make_unique<typename Ros::Part>(3, role); }
-  /// From now on the clock does not wait for the robot.
-  void kill_part(const std::string& role) {
-    base().set_awaited(false);
-    parts_.at(role)->kill();
-  }
-  /// And waits until it says how it is: how long that takes is the machine's affair.
-  void restart_part(const std::string& role) {
-    said_.clear();
-    start_part(role);
-    const std::string name = "robot3: " + (role == "robot" ? "planner" : role);
-    const Nanoseconds since = world().time();
-    const auto is_back = [&] { return said_.count(name) > 0 && base().heard_since(since); };
-    EXPECT_LT(world_->tenths_until(1000, is_back), 1000) << name;
-    base().set_awaited(true);
-  }
-  /// Whatever the test was about, commands have kept the limits.
-  void TearDown() override {
-    if (!world_) return;
-    EXPECT_GT(base().commands(), 20U);
-    base().check_limits(kMaxSpeed, kMaxAcceleration);
-  }
-
-  /// To the other end of a stretch of 20 m, until it goes there fast. Told again, since who has just been
-  /// started may not listen yet.
-  void drive() {
-    const double end = base().pose().position_world.x() > 0.0 ? -10.0 : 10.0;
-    for (int i = 0; i < 10; ++i) {
-      base().send_goal(end, 0.0, 0.0);
-      const auto fast = [&] { return base().velocity_world().x() * end > 0.8 * std::abs(end); };
-      if (world_->tenths_until(30, fast) < 30) return;
-    }
-    ADD_FAILURE() << "it does not set out: " << base().status().reason;
-  }
-  /// And until it has been as fast for a while.
-  void drive_steadily() {
-    drive();
-    for (int i = 0; i < 10; ++i) EXPECT_TRUE(world_->go_on()) << i;
-  }
-  void goes_on() {
-    EXPECT_LT(world_->tenths_until(150, [&] { return base().speed() > 0.8; }), 150) << base().status().reason;
-  }
-  void stands(int tenths = kStanding) {
-    EXPECT_LT(world_->tenths_until(tenths, [&] { return base().speed() < 0.01; }), tenths)
-        << base().status().reason;
-  }
-  /// Begins within so many seconds from now, and does not end before it stands.
-  void brakes_and_stands(double soonest, double latest) {
-    const Nanoseconds since = world().time();
-    stands(static_cast<int>(std::ceil(10.0 * latest)) + kStanding);
-    const double after = 1e-9 * static_cast<double>(base().last_fast(since) - since);
-    EXPECT_GT(after, soonest) << base().status().reason;
-    EXPECT_LT(after, latest) << base().status().reason;
-  }
-  /// Within 2 s.
-  void is_said(const std::string& part, const std::string& words) {
-    const auto said = [&] { return said_[part].find(words) != std::string::npos; };
-    EXPECT_LT(world_->tenths_until(20, said), 20) << part << ": " << said_[part];
-  }
-
-  Base& base() { return world_->base(); }
-  World& world() { return *world_; }
-
- private:
-  std::map<std::string, std::string> said_;  // last message of each part
-  std::optional<World> world_;
-  typename Ros::Heard diagnostics_;  // of world_'s node
-  std::map<std::string, std::unique_ptr<typename Ros::Part>> parts_;
-};
+class RobotFaults : public RobotUnderWay<Ros> {};
 
 TYPED_TEST_SUITE_P(RobotFaults);
 
@@ -257,6 +162,19 @@ TYPED_TEST_P(RobotFaults, AnotherRobotOfItsNumberIsNamedAndPeersOfOtherClocksAnd
   this->is_said("robot3", "robot 6: its frame is 'another_map'");
 }
 
+TYPED_TEST_P(RobotFaults, WhenTheClockJumpsItStopsAndGoesOnInTheNewTime) {
+  ASSERT_NO_FATAL_FAILURE(this->start());
+  std::uint32_t jumps = 0;
+  for (const double jump : {30.0, -25.0, -500.0}) {
+    SCOPED_TRACE(jump);
+    this->drive_steadily();
+    this->world().jump(jump);
+    this->stands();
+    this->drive_steadily();
+    EXPECT_EQ(this->base().status().clock_jumps, ++jumps);
+  }
+}
+
 /// Carries what each robot tells its peers to the other's topic, with loss and delay.
 template <class Ros>
 class Air {
@@ -315,7 +233,7 @@ class Air {
 template <class Ros>
 double pass_each_other(double loss, double longest_delay) {
   const auto own_topic = [](int robot_id) {
-    return Renamed{{"/swarm/trajectories", "/air" + std::to_string(robot_id)}};
+    return PartOptions{{{"/swarm/trajectories", "/air" + std::to_string(robot_id)}}, {}};
   };
   typename Ros::Part first{0, "robot", own_topic(0)}, second{1, "robot", own_topic(1)};
   RobotWorld<Ros> world{{{0, {{-5.0, 0.0}, 0.0}}, {1, {{5.0, 0.1}, 0.0}}}};
@@ -359,6 +277,7 @@ REGISTER_TYPED_TEST_SUITE_P(RobotFaults, WithoutOneOfItsSensorsItBrakesSaysSoAnd
                             APlannerThatIsBackBeforeTheRobotStandsBeginsAtItsSpeed,
                             ARobotThatIsKilledStandsAndGoesOn,
                             AnotherRobotOfItsNumberIsNamedAndPeersOfOtherClocksAndFramesToo,
+                            WhenTheClockJumpsItStopsAndGoesOnInTheNewTime,
                             PeersPassWithThreeOfTenMessagesLostAndTheRestUpTo200MillisecondsLate,
                             PeersPassWithHalfOfTheirMessagesLostAndTheRestUpTo300MillisecondsLate);
 

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -29,11 +30,20 @@ inline constexpr Nanoseconds kTick = 10'000'000;
 inline constexpr int kTicksOfACommand = 5;  // agent.tracker.control_period
 inline constexpr int kTicksOfAScan = 10;
 
-/// Topics of a process that have another name: {"/swarm/trajectories", "/air0"}.
-using Renamed = std::vector<std::pair<std::string, std::string>>;
+/// What a robot's process is told beside its number.
+struct PartOptions {
+  std::vector<std::pair<std::string, std::string>> renamed;  ///< topics: {"/swarm/trajectories", "/air0"}
+  std::string config;                                        ///< path of the robot's file; empty: defaults
+};
+
+/// Whom a robot's scanner meets: a disc of a radius [m], where it is at a time [s].
+struct Walker {
+  double radius = 0.3;
+  std::function<Eigen::Vector2d(double time)> path;
+};
 
 /// A base that does what it is told, stands when nothing has been told for half a second, its localisation,
-/// and its scanner (nothing is in sight).
+/// and its scanner, which meets walkers alone.
 template <class Ros>
 class RobotBase {
  public:
@@ -50,9 +60,10 @@ class RobotBase {
                                               [this](const Twist& twist) { take_command(twist); });
     wheels_ = node.template subscribe<WheelSpeeds>(
         topic("wheel_speeds"), 50, [this](const WheelSpeeds& wheels) { take_wheels(wheels); });
-    plan_ = node.template subscribe<Trajectory>(topic("trajectory"), 50, [this](const Trajectory& plan) {
-      planned_ = Ros::nanoseconds_of(plan.header.stamp);
-    });
+    plan_ = node.template subscribe<Trajectory>(topic("trajectory"), 50,
+                                                [this](const Trajectory& plan) { take_plan(plan); });
+    tracker_ = node.template subscribe<TrackerStatus>(
+        topic("tracker_status"), 50, [this](const TrackerStatus& status) { take_tracker(status); });
     said_ = node.template subscribe<Status>(topic("status"), 50,
                                             [this](const Status& status) { status_ = status; });
   }
@@ -69,6 +80,10 @@ class RobotBase {
   void set_obstacles(bool told) { obstacles_told_ = told; }
   /// Added to every position that is told [m].
   void set_error(const Eigen::Vector2d& error) { error_ = error; }
+  void set_walkers(std::vector<Walker> walkers) {
+    walkers_ = std::move(walkers);
+    gap_ = std::numeric_limits<double>::infinity();
+  }
   /// Something holds it where it is, whatever it is told.
   void set_held(bool held) { held_ = held; }
   /// Whether the clock waits for its commands and plans: not for those of processes that were killed.
@@ -80,6 +95,13 @@ class RobotBase {
   [[nodiscard]] Eigen::Vector2d velocity_world() const {           ///< [m/s] as told
     return Eigen::Rotation2D<double>{pose_.heading} * Eigen::Vector2d{twist_.linear.x, twist_.linear.y};
   }
+  /// [m] between the robot, a disc, and the nearest walker, since these were set.
+  [[nodiscard]] double least_gap() const { return gap_; }
+  /// Stamps of the scans that it was told.
+  [[nodiscard]] const std::vector<Nanoseconds>& scans() const { return scans_told_; }
+  /// What was observed last before each of its plans, and before the plan behind each of its commands.
+  [[nodiscard]] const std::vector<Nanoseconds>& planned_with() const { return planned_with_; }
+  [[nodiscard]] const std::vector<Nanoseconds>& commanded_with() const { return commanded_with_; }
   /// Its commands and what it says of itself.
   [[nodiscard]] bool heard_since(Nanoseconds time) const {
     return commanded_ > time && Ros::nanoseconds_of(status_.header.stamp) > time;
@@ -135,6 +157,8 @@ class RobotBase {
     const bool planned = planned_ > now - 25 * kTick || status_.reason != "moving";
     return commanded_since(begin) && (!awaited_ || planned_ == 0 || planned);
   }
+  /// What was heard of it in another time is of no use.
+  void forget_times() { commanded_ = planned_ = 0; }
   void move(Nanoseconds now) {
     now_ = now;
     if (commands_.empty() || now - commands_.back().time > 50 * kTick) twist_ = {};
@@ -142,6 +166,9 @@ class RobotBase {
     if (!held_)
       pose_ = {moved(pose_, Eigen::Vector2d{twist_.linear.x, twist_.linear.y} * seconds),
                pose_.heading + twist_.angular.z * seconds};
+    for (const Walker& walker : walkers_)
+      gap_ = std::min(gap_, (walker.path(1e-9 * static_cast<double>(now)) - pose_.position_world).norm() -
+                                walker.radius - kRadius);
     if (!odometry_told_) return;
     Odometry odometry;
     odometry.header.stamp = Ros::time_of(now);
@@ -167,6 +194,8 @@ class RobotBase {
   using ObstacleTracks = typename Ros::ObstacleTracks;
   using WheelSpeeds = typename Ros::WheelSpeeds;
   using Trajectory = typename Ros::Trajectory;
+  using TrackerStatus = typename Ros::TrackerStatus;
+  static constexpr double kRadius = 0.3;  // [m] of a robot without a file of its own
 
   struct Command {
     Nanoseconds time;
@@ -200,22 +229,50 @@ class RobotBase {
     commanded_ = Ros::nanoseconds_of(wheels.header.stamp);
     if (wheels.guard != WheelSpeeds::CLEAR) guarded_.push_back(now_);
   }
+  void take_plan(const Trajectory& plan) {
+    planned_ = Ros::nanoseconds_of(plan.header.stamp);
+    planned_with_.push_back(Ros::nanoseconds_of(plan.observed));
+  }
+  void take_tracker(const TrackerStatus& status) {
+    if (status.latency_ms >= 0.0)
+      commanded_with_.push_back(Ros::nanoseconds_of(status.header.stamp) -
+                                static_cast<Nanoseconds>(1e6 * status.latency_ms));
+  }
   void tell_scan(Nanoseconds now) {
+    constexpr int kBeams = 360;
     LaserScan scan;
     scan.header.stamp = Ros::time_of(now);
     scan.header.frame_id = name_ + "/base_link";
-    scan.angle_min = -3.1F;
-    scan.angle_increment = 0.02F;
-    scan.ranges.assign(311, std::numeric_limits<float>::infinity());
-    scan.angle_max = -3.1F + 310 * 0.02F;
+    scan.angle_min = static_cast<float>(-M_PI);
+    scan.angle_increment = static_cast<float>(2.0 * M_PI / kBeams);
+    scan.angle_max = scan.angle_min + static_cast<float>(kBeams - 1) * scan.angle_increment;
     scan.range_min = 0.05F;
-    scan.range_max = 10.0F;
+    scan.range_max = 8.0F;
+    for (int i = 0; i < kBeams; ++i) {
+      const double angle = scan.angle_min + static_cast<double>(i) * scan.angle_increment;
+      const double range = range_along(pose_.heading + angle, 1e-9 * static_cast<double>(now));
+      scan.ranges.push_back(range < scan.range_max ? static_cast<float>(range)
+                                                   : std::numeric_limits<float>::infinity());
+    }
     scan_.publish(scan);
+    scans_told_.push_back(now);
+  }
+  /// [m] to the nearest walker in a direction [rad] of the map.
+  [[nodiscard]] double range_along(double direction, double time) const {
+    const Eigen::Vector2d beam{std::cos(direction), std::sin(direction)};
+    double range = std::numeric_limits<double>::infinity();
+    for (const Walker& walker : walkers_) {
+      const Eigen::Vector2d offset = walker.path(time) - pose_.position_world;
+      const double along = offset.dot(beam);
+      const double inside = walker.radius * walker.radius - (offset.squaredNorm() - along * along);
+      if (along > 0.0 && inside >= 0.0) range = std::min(range, along - std::sqrt(inside));
+    }
+    return range;
   }
 
   std::string name_;
   Pose2 pose_;
-  typename Ros::Heard command_, wheels_, plan_, said_;
+  typename Ros::Heard command_, wheels_, plan_, said_, tracker_;
   typename Ros::template Publisher<Odometry> odometry_;
   typename Ros::template Publisher<LaserScan> scan_;
   typename Ros::template Publisher<ObstacleTracks> obstacles_;
@@ -226,6 +283,9 @@ class RobotBase {
   Twist twist_;
   std::vector<Command> commands_;
   std::vector<Nanoseconds> guarded_;  // when the guard held a command back
+  std::vector<Nanoseconds> scans_told_, planned_with_, commanded_with_;
+  std::vector<Walker> walkers_;
+  double gap_ = std::numeric_limits<double>::infinity();  // [m]
   Status status_;
 };
 
@@ -282,6 +342,12 @@ class RobotWorld {
     return tenths;
   }
 
+  /// The clock jumps [s], to a whole tick.
+  void jump(double seconds) {
+    time_ += kTick * std::llround(seconds * 1e9 / static_cast<double>(kTick));
+    for (const auto& base : bases_) base->forget_times();
+  }
+
   /// Until the robots, each of so many processes, say that they have started, and listen.
   [[nodiscard]] bool wait_for_robots(int processes = 1) {
     const int clocks = static_cast<int>(bases_.size()) * (Ros::kNodesCount ? 3 : processes);
@@ -295,6 +361,7 @@ class RobotWorld {
   typename Ros::Node& ros() { return node_; }
   [[nodiscard]] Base& base(std::size_t i = 0) { return *bases_.at(i); }
   [[nodiscard]] Nanoseconds time() const { return time_; }
+  [[nodiscard]] double seconds() const { return 1e-9 * static_cast<double>(time_); }  ///< [s]
 
  private:
   template <class Holds>

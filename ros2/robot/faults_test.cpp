@@ -1,11 +1,14 @@
-// The faults of robots on ROS 2: those of every ROS, and packets that are lost.
+// Robots on ROS 2: what holds on every ROS, and packets that are lost.
 #include "wire/robot_faults_test.hpp"
+#include "wire/robot_scanner_test.hpp"
 
 #include "ros2/robot/robot_world_test.hpp"
 
 namespace spf::wire {
 
 INSTANTIATE_TYPED_TEST_SUITE_P(OnRos2, RobotFaults, spf_ros2::Ros2);
+INSTANTIATE_TYPED_TEST_SUITE_P(OnRos2, RobotScanner, spf_ros2::Ros2);
+INSTANTIATE_TYPED_TEST_SUITE_P(OnRos2, RobotArrivals, spf_ros2::Ros2);
 
 }  // namespace spf::wire
 

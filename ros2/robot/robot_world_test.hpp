@@ -13,6 +13,7 @@
 #include <ros2_messages/sensor_msgs/LaserScan.hpp>
 #include <ros2_messages/spf_empc_msgs/ObstacleTracks.hpp>
 #include <ros2_messages/spf_empc_msgs/RobotStatus.hpp>
+#include <ros2_messages/spf_empc_msgs/TrackerStatus.hpp>
 #include <ros2_messages/spf_empc_msgs/Trajectory.hpp>
 #include <ros2_messages/spf_empc_msgs/WheelSpeeds.hpp>
 #include <string>
@@ -39,6 +40,7 @@ struct Ros2 {
   using Odometry = ros2::nav_msgs::Odometry;
   using PoseStamped = ros2::geometry_msgs::PoseStamped;
   using RobotStatus = ros2::spf_empc_msgs::RobotStatus;
+  using TrackerStatus = ros2::spf_empc_msgs::TrackerStatus;
   using Trajectory = ros2::spf_empc_msgs::Trajectory;
   using Twist = ros2::geometry_msgs::Twist;
   using WheelSpeeds = ros2::spf_empc_msgs::WheelSpeeds;
@@ -82,15 +84,16 @@ struct Ros2 {
 
   class Part {
    public:
-    Part(int robot_id, const std::string& role, const spf::wire::Renamed& renamed = {})
-        : program_{arguments(robot_id, role, renamed)} {}
+    Part(int robot_id, const std::string& role, const spf::wire::PartOptions& options = {})
+        : program_{arguments(robot_id, role, options)} {}
     void kill() { EXPECT_EQ(program_.end(SIGKILL), -1); }
 
    private:
     static std::vector<std::string> arguments(int robot_id, const std::string& role,
-                                              const spf::wire::Renamed& renamed) {
+                                              const spf::wire::PartOptions& options) {
       std::vector<std::string> words = robot_arguments(robot_id, role);
-      for (const auto& [from, to] : renamed) words.insert(words.end(), {"-r", from + ":=" + to});
+      for (const auto& [from, to] : options.renamed) words.insert(words.end(), {"-r", from + ":=" + to});
+      if (!options.config.empty()) words.insert(words.end(), {"-p", "config:=" + options.config});
       return words;
     }
     Program program_;

@@ -4,7 +4,6 @@ import math
 import os
 import signal
 import subprocess
-import tempfile
 import threading
 import time
 import unittest
@@ -13,7 +12,6 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, TransformStamped, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry
-from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from spf_empc_msgs.msg import ObstacleTracks, RobotStatus, TrackerStatus, WheelSpeeds
 from tf2_msgs.msg import TFMessage
@@ -192,17 +190,15 @@ def free_scan(stamp, number, beams=90):
 
 
 class World:
-    """Moves the robots and their sensors at 100 Hz on a thread; with `simulated`, it is the clock as well."""
+    """Moves the robots and their sensors at 100 Hz on a thread."""
 
-    def __init__(self, robots, simulated=False):
+    def __init__(self, robots):
         self.robots = robots
-        self.simulated_time = 1000.0 if simulated else None
         self.least_distance = float("inf")
         self.diagnostics = set()
         self.health = {}  # (level, message) of the newest line of each name
         self.ended = False
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
-        self.clock = rospy.Publisher("/clock", Clock, queue_size=10) if simulated else None
         self.map = rospy.Publisher("/map", OccupancyGrid, queue_size=1, latch=True)
         self.map.publish(hall())
         self.thread = threading.Thread(target=self.run, daemon=True)
@@ -213,22 +209,16 @@ class World:
             self.diagnostics.add((status.name, status.message))
             self.health[status.name] = (status.level, status.message)
 
-    def stamp(self):
-        return rospy.Time.from_sec(self.simulated_time) if self.clock else rospy.Time.from_sec(time.time())
-
     def run(self):
         tick, before = 0, time.monotonic()
         while not self.ended:
             time.sleep(max(0.0, before + 0.01 - time.monotonic()))
             now = time.monotonic()
-            dt, before = (0.01 if self.clock else now - before), now
-            if self.clock:
-                self.simulated_time += dt
-                self.clock.publish(Clock(clock=self.stamp()))
+            dt, before = now - before, now
             tick += 1
             for robot in self.robots:
                 robot.move(dt)
-                robot.sense(self.stamp(), tick)
+                robot.sense(rospy.Time.from_sec(time.time()), tick)
             for i, one in enumerate(self.robots):
                 for other in self.robots[:i]:
                     self.least_distance = min(self.least_distance, math.hypot(one.x - other.x, one.y - other.y))
@@ -311,37 +301,16 @@ def stands(robot, seconds=3.0):
 class OneRobotTest(unittest.TestCase):
     """Tests that share one robot, its nodes as processes of their own, and its world."""
     number = 0
-    start = 0.0  # [m] x
-    config = ""  # of its file; empty: the defaults
 
     @classmethod
     def setUpClass(cls):
-        cls.robot = Robot(cls.number, cls.start)
-        cls.prepare()
+        cls.robot = Robot(cls.number)
         cls.world = World([cls.robot])
-        with tempfile.NamedTemporaryFile("w", suffix=".yaml", delete=False) as file:
-            file.write(cls.config)
-        cls.config_file = file.name
-        cls.robot.start_all(*(["_config:=" + file.name] if cls.config else []))
-
-    @classmethod
-    def prepare(cls):
-        """Before the robot's world and its nodes begin."""
+        cls.robot.start_all()
 
     @classmethod
     def tearDownClass(cls):
-        os.remove(cls.config_file)
         cls.world.end()
 
 
 NOWHERE = (0.0, 50.0)  # [m] out of sight
-
-
-class ScannerAloneTest(OneRobotTest):
-    """Nobody reports obstacles to the robot: its scanner is all it has."""
-    config = "host: {relies_on_obstacles: false}\n"
-
-    @classmethod
-    def prepare(cls):
-        cls.robot.obstacles_on = False
-        cls.robot.walkers = [(0.25, lambda now: NOWHERE)]  # nobody yet; where anybody may be its beams are finer

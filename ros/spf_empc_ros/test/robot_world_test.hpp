@@ -14,6 +14,7 @@
 #include <sensor_msgs/LaserScan.h>
 #include <spf_empc_msgs/ObstacleTracks.h>
 #include <spf_empc_msgs/RobotStatus.h>
+#include <spf_empc_msgs/TrackerStatus.h>
 #include <spf_empc_msgs/Trajectory.h>
 #include <spf_empc_msgs/WheelSpeeds.h>
 #include <sys/types.h>
@@ -53,6 +54,7 @@ struct Ros1 {
   using Odometry = nav_msgs::Odometry;
   using PoseStamped = geometry_msgs::PoseStamped;
   using RobotStatus = spf_empc_msgs::RobotStatus;
+  using TrackerStatus = spf_empc_msgs::TrackerStatus;
   using Trajectory = spf_empc_msgs::Trajectory;
   using Twist = geometry_msgs::Twist;
   using WheelSpeeds = spf_empc_msgs::WheelSpeeds;
@@ -118,16 +120,17 @@ struct Ros1 {
 
   class Part {
    public:
-    Part(int robot_id, const std::string& role, const spf::wire::Renamed& renamed = {})
-        : program_{arguments(robot_id, role, renamed), {"ROS_NAMESPACE=/robot" + std::to_string(robot_id)}} {}
+    Part(int robot_id, const std::string& role, const spf::wire::PartOptions& options = {})
+        : program_{arguments(robot_id, role, options), {"ROS_NAMESPACE=/robot" + std::to_string(robot_id)}} {}
     void kill() { program_.kill(); }
 
    private:
     static std::vector<std::string> arguments(int robot_id, const std::string& role,
-                                              const spf::wire::Renamed& renamed) {
+                                              const spf::wire::PartOptions& options) {
       std::vector<std::string> words{node_program(role + "_node"), "__name:=" + role,
                                      "_robot_id:=" + std::to_string(robot_id), "_map:=none"};
-      for (const auto& [from, to] : renamed) words.push_back(from + ":=" + to);
+      for (const auto& [from, to] : options.renamed) words.push_back(from + ":=" + to);
+      if (!options.config.empty()) words.push_back("_config:=" + options.config);
       return words;
     }
     Program program_;
