@@ -62,14 +62,15 @@ TEST(RunTimeValues, TheLimitOfSpeedIsNeverAboveTheFiles) {
 
 TEST(RunTimeValues, AreRefusedWithEveryProblem) {
   const RobotFile file = read_robot_file("");
-  EXPECT_EQ(problem_with(file, {{"goal_tolerance", -1.0}, {"heading_mode", std::string{"sideways"}}}),
-            "heading_mode = sideways must be one of keep, goal, motion; goal_tolerance = -1 must lie in "
-            "[0.001, 1] m");
+  EXPECT_EQ(
+      problem_with(file, {{"goal_tolerance", -1.0}, {"heading_mode", std::string{"sideways"}}}),
+      "heading_mode = sideways must be one of look, keep, goal, motion; goal_tolerance = -1 must lie in "
+      "[0.001, 1] m");
   EXPECT_EQ(problem_with(file, {{"radius", 0.1}}), "radius cannot be changed at run time");
   EXPECT_EQ(problem_with(file, {{"goal_patience", std::string{"long"}}}),
             "goal_patience = long is no number");
   EXPECT_EQ(problem_with(file, {{"heading_mode", 1.0}}),
-            "heading_mode = 1 must be one of keep, goal, motion");
+            "heading_mode = 1 must be one of look, keep, goal, motion");
   EXPECT_NE(problem_with(file, {{"speed_limit", std::numeric_limits<double>::quiet_NaN()}}), "");
 }
 

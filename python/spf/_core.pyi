@@ -827,7 +827,7 @@ class AgentParameters:
         """The defaults, but for the fields that are named."""
     @property
     def heading_mode(self) -> str:
-        """where the body's x axis points while the robot moves; keep, goal, motion"""
+        """where the body's x axis points while the robot moves; look, keep, goal, motion"""
     @heading_mode.setter
     def heading_mode(self, value: str) -> None: ...
     @property

@@ -30,16 +30,21 @@ using PlannerFactory = std::function<std::unique_ptr<Planner>(const AgentParamet
 /// That of the default method.
 [[nodiscard]] std::unique_ptr<Planner> make_space_time_planner(const AgentParameters& agent);
 
-/// Where the body's x axis points while the robot moves.
-enum class HeadingMode { keep, goal, motion };
+/// Where the body's x axis points while the robot moves. `look`: it is kept where the robot sees all round;
+/// one that knows of what moves by a scanner with a blind side alone turns to and fro, so that it sees all in
+/// turn.
+enum class HeadingMode { look, keep, goal, motion };
 template <>
 struct EnumNames<HeadingMode> {
-  static constexpr std::array<std::pair<HeadingMode, const char*>, 3> values{
-      {{HeadingMode::keep, "keep"}, {HeadingMode::goal, "goal"}, {HeadingMode::motion, "motion"}}};
+  static constexpr std::array<std::pair<HeadingMode, const char*>, 4> values{
+      {{HeadingMode::look, "look"},
+       {HeadingMode::keep, "keep"},
+       {HeadingMode::goal, "goal"},
+       {HeadingMode::motion, "motion"}}};
 };
 
 struct AgentParameters {
-  HeadingMode heading_mode = HeadingMode::keep;
+  HeadingMode heading_mode = HeadingMode::look;
   RobotParameters robot;
   TeamParameters team;
   FieldParameters field;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spf/math/angles.hpp"
 #include "spf/team/schedule.hpp"
 
 namespace spf {
@@ -32,11 +33,17 @@ void Beliefs::observe(const Observation& observation, const std::optional<Pose2>
 }
 
 /// What scans alone show is seen as far as the sensor reaches and its beams are no farther apart than a pair
-/// of legs is wide.
+/// of legs is wide, and to the sides that it looks to.
 void Beliefs::bound_sight(const RangeScan& scan) {
   constexpr double kLegs = 0.2;  // [m]
   const double increment = std::max(std::abs(scan.angle_increment), 1e-9);
   sight_.range = std::min({sight_range_, scan.max_range, kLegs / increment});
+  // Beams that are missing at one place, two of them, are no blind side.
+  const double beams = static_cast<double>(scan.ranges.size());
+  const bool all_round = (beams + 2.0) * increment >= 2.0 * kPi;
+  sight_.view_half = all_round ? kPi : 0.5 * (beams - 1.0) * increment;
+  sight_.view_centre =
+      all_round ? 0.0 : wrap_angle(scan.angle_min + 0.5 * (beams - 1.0) * scan.angle_increment);
 }
 
 /// Returns that neither the map, tracks of other detectors nor peers mask are tracked; static ones enter the

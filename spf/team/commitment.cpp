@@ -22,6 +22,7 @@ Commitment::Commitment(const AgentParameters& parameters, const Pose2& start, do
       drive_{parameters.robot},
       reanchor_distance_{parameters.team.reanchor_distance},
       held_heading_{start.heading},
+      outlook_{start.heading},
       rests_since_{time},
       trajectory_{Trajectory::standing(start.position_world, time, 1.0, HeadingProfile{start.heading})} {}
 
@@ -109,9 +110,35 @@ bool Commitment::stand_where(const StateEstimate& estimate, double time) {
   return true;
 }
 
-HeadingProfile Commitment::heading_for(const PlanRequest& request) const {
+std::optional<double> Commitment::course(const PlanRequest& request) const {
+  const Eigen::Vector2d ahead = trajectory_.state(request.time + 0.5).velocity_world;
+  if (ahead.norm() <= 0.1 * robot_.max_speed) return std::nullopt;
+  return std::atan2(ahead.y(), ahead.x());
+}
+
+/// The blind side is at one side of the robot's wake, then at the other; where it goes stays in view.
+double Commitment::look_around(const PlanRequest& request) {
+  constexpr double kOverlap = 0.2;   // [rad] of the two views
+  constexpr double kInView = 0.25;   // [rad] at least, from the view's edge to the course
+  constexpr double kReached = 0.15;  // [rad]
+  const Sight& sight = request.world.sight;
+  outlook_ = course(request).value_or(outlook_);
+  const double swing =
+      std::clamp(kPi - sight.view_half + kOverlap, 0.0, std::max(0.0, sight.view_half - kInView));
+  const auto target = [&] { return wrap_angle(outlook_ - sight.view_centre + look_side_ * swing); };
+  if (std::abs(angle_difference(target(), request.heading.heading)) < kReached) look_side_ = -look_side_;
+  return target();
+}
+
+HeadingProfile Commitment::heading_for(const PlanRequest& request) {
   double target = held_heading_;
   switch (heading_mode_) {
+    case HeadingMode::look: {
+      const bool blind = request.world.sight.view_half < kPi;
+      const bool turned = request.goal_heading && ends_soon(request);
+      if (blind && !turned) target = look_around(request);
+      break;
+    }
     case HeadingMode::keep:
       break;
     case HeadingMode::goal:
@@ -122,9 +149,7 @@ HeadingProfile Commitment::heading_for(const PlanRequest& request) const {
         target = *request.goal_heading;
         break;
       }
-      const Eigen::Vector2d ahead = trajectory_.state(request.time + 0.5).velocity_world;
-      const bool clearly = ahead.norm() > 0.1 * robot_.max_speed;
-      target = clearly ? std::atan2(ahead.y(), ahead.x()) : request.heading.heading;
+      target = course(request).value_or(request.heading.heading);
       break;
     }
   }

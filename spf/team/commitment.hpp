@@ -44,7 +44,11 @@ class Commitment {
 
  private:
   [[nodiscard]] bool ends_soon(const PlanRequest& request) const;
-  [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request) const;
+  [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request);
+  /// [rad] from which, in turn with another, a scanner with a blind side sees all round.
+  [[nodiscard]] double look_around(const PlanRequest& request);
+  /// [rad] of the motion soon, if it moves clearly.
+  [[nodiscard]] std::optional<double> course(const PlanRequest& request) const;
   void watch_rest(const PlanRequest& request);
   /// How far a robot that stands may be from its plan [m].
   [[nodiscard]] double standing_error(const StateEstimate& estimate) const;
@@ -54,6 +58,8 @@ class Commitment {
   Drive drive_;
   double reanchor_distance_;  // [m]
   double held_heading_;       // [rad] in mode `keep`
+  double outlook_;            // [rad] the direction that it looks to both sides of, in mode `look`
+  double look_side_ = 1.0;    // to which of them
   double rests_since_;        // [s] since when the plan of a robot that cannot move sideways stands
   Trajectory trajectory_;
   bool braking_ = false;

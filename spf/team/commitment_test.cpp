@@ -259,6 +259,65 @@ TEST(CommitmentHeading, KeepsTheHeadingOfItsLastGoalOnTheWayToTheNext) {
   EXPECT_NEAR(commitment.trajectory().heading().target_heading(), 2.0, 1e-9);
 }
 
+/// How long each of 36 directions was out of a view at most [s], from when the robot has looked around once.
+std::vector<double> longest_unseen(const std::vector<double>& headings, double period, const Sight& sight) {
+  std::vector<double> longest(36, 0.0), unseen(36, 0.0);
+  for (std::size_t plan = 30; plan < headings.size(); ++plan)
+    for (std::size_t i = 0; i < longest.size(); ++i) {
+      const double direction = 2.0 * kPi * static_cast<double>(i) / 36.0;
+      const double off = angle_difference(direction, headings[plan] + sight.view_centre);
+      unseen[i] = std::abs(off) <= sight.view_half ? 0.0 : unseen[i] + period;
+      longest[i] = std::max(longest[i], unseen[i]);
+    }
+  return longest;
+}
+
+TEST(CommitmentHeading, LooksAllRoundWithAScannerThatHasABlindSide) {
+  for (const double speed : {0.0, 0.7})
+    for (const double centre : {0.0, kPi}) {  // mounted ahead, and the other way round
+      SCOPED_TRACE(testing::Message() << speed << " m/s, its scanner to " << centre << " rad");
+      Commitment commitment{AgentParameters{}, {{0.0, 0.0}, 0.3}, 0.0};
+      const Trajectory motion = straight({0.0, 0.0}, {speed, 0.0}, 0.0, 20.0);
+      std::vector<double> headings;
+      Sight sight;
+      sight.view_half = 0.75 * kPi;
+      sight.view_centre = centre;
+      for (double time = 0.0; time < 12.0; time += 0.1) {
+        PlanRequest request = request_at(time);
+        request.goal_world = {30.0, 0.0};
+        request.world.sight = sight;
+        commitment.begin_plan(StateEstimate{}, request);
+        headings.push_back(request.heading.heading);
+        commitment.follow(request, follow(motion));
+      }
+      const std::vector<double> unseen = longest_unseen(headings, 0.1, sight);
+      EXPECT_GT(*std::max_element(unseen.begin(), unseen.end()), 0.0);
+      EXPECT_LT(*std::max_element(unseen.begin(), unseen.end()), 2.5);
+      if (speed > 0.0) {
+        EXPECT_EQ(unseen[0], 0.0) << "where it goes";
+      }
+    }
+}
+
+TEST(CommitmentHeading, WithABlindSideStandsAsItsGoalSaysAndDoesNotTurnWhereItIsToKeepItsHeading) {
+  for (const HeadingMode mode : {HeadingMode::look, HeadingMode::keep}) {
+    AgentParameters parameters;
+    parameters.heading_mode = mode;
+    Commitment commitment{parameters, {{0.0, 0.0}, 0.3}, 0.0};
+    double heading = 0.0;
+    for (double time = 0.0; time < 12.0; time += 0.1) {
+      PlanRequest request = request_at(time);
+      request.goal_world = {0.0, 0.0};
+      if (mode == HeadingMode::look) request.goal_heading = 1.0;
+      request.world.sight.view_half = 0.75 * kPi;
+      commitment.begin_plan(StateEstimate{}, request);
+      heading = request.heading.heading;
+      commitment.follow(request, follow(Trajectory::standing({0.0, 0.0}, time, 20.0)));
+    }
+    EXPECT_NEAR(heading, mode == HeadingMode::look ? 1.0 : 0.3, 1e-6);
+  }
+}
+
 TEST(CommitmentHeading, KeepsStillWhileItsMotionSaysNothing) {
   AgentParameters parameters;
   parameters.heading_mode = HeadingMode::motion;

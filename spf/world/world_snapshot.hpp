@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "spf/math/angles.hpp"
 #include "spf/world/obstacle_track.hpp"
 #include "spf/world/occupancy_map.hpp"
 #include "spf/world/peer.hpp"
@@ -15,6 +16,8 @@ struct Sight {
   double range = std::numeric_limits<double>::infinity();  ///< [m] up to which it sees whatever moves
   double unseen_speed = 0.0;  ///< [m/s] of what may come from beyond; 0 = nothing does
   double reaction = 0.2;      ///< [s] from what is seen to a robot that brakes
+  double view_centre = 0.0;   ///< [rad] of what the scanner sees, from the body's x axis
+  double view_half = kPi;     ///< [rad] it sees to either side of that; pi: all round
 };
 
 /// A view: the agent owns what it points to and keeps it unchanged during planning.
