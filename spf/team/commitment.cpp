@@ -127,7 +127,32 @@ double Commitment::look_around(const PlanRequest& request) {
       std::clamp(kPi - sight.view_half + kOverlap, 0.0, std::max(0.0, sight.view_half - kInView));
   const auto target = [&] { return wrap_angle(outlook_ - sight.view_centre + look_side_ * swing); };
   if (std::abs(angle_difference(target(), request.heading.heading)) < kReached) look_side_ = -look_side_;
+  if (const std::optional<double> lost = out_of_view(request)) {
+    const double left = std::abs(angle_difference(*lost, outlook_ + swing));
+    const double right = std::abs(angle_difference(*lost, outlook_ - swing));
+    look_side_ = left < right ? 1.0 : -1.0;
+  }
   return target();
+}
+
+/// [rad] to the nearest track that its scanner does not see now.
+std::optional<double> Commitment::out_of_view(const PlanRequest& request) const {
+  constexpr double kNear = 5.0;  // [m]
+  if (request.world.tracks == nullptr) return std::nullopt;
+  const Sight& sight = request.world.sight;
+  double nearest = kNear;
+  std::optional<double> found;
+  for (const ObstacleTrack& track : *request.world.tracks) {
+    const Eigen::Vector2d is =
+        track.state.position_world + (request.time - track.time) * track.state.velocity_world;
+    const Eigen::Vector2d offset = is - request.head.position_world;
+    const double direction = std::atan2(offset.y(), offset.x());
+    const double off = angle_difference(direction, request.heading.heading + sight.view_centre);
+    if (std::abs(off) <= sight.view_half || offset.norm() >= nearest) continue;
+    nearest = offset.norm();
+    found = direction;
+  }
+  return found;
 }
 
 HeadingProfile Commitment::heading_for(const PlanRequest& request) {

@@ -47,6 +47,7 @@ class Commitment {
   [[nodiscard]] HeadingProfile heading_for(const PlanRequest& request);
   /// [rad] from which, in turn with another, a scanner with a blind side sees all round.
   [[nodiscard]] double look_around(const PlanRequest& request);
+  [[nodiscard]] std::optional<double> out_of_view(const PlanRequest& request) const;
   /// [rad] of the motion soon, if it moves clearly.
   [[nodiscard]] std::optional<double> course(const PlanRequest& request) const;
   void watch_rest(const PlanRequest& request);

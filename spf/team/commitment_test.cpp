@@ -299,6 +299,28 @@ TEST(CommitmentHeading, LooksAllRoundWithAScannerThatHasABlindSide) {
     }
 }
 
+TEST(CommitmentHeading, TurnsItsBlindSideAwayFromWhomItKnowsThere) {
+  for (const double side : {-1.0, 1.0}) {
+    SCOPED_TRACE(side);
+    Commitment commitment{AgentParameters{}, {{0.0, 0.0}, 0.0}, 0.0};
+    ObstacleTrack track;
+    track.state.position_world = {-2.0, side * 0.3};
+    const std::vector<ObstacleTrack> tracks{track};
+    bool seen = false;
+    for (double time = 0.0; time < 1.5; time += 0.1) {
+      PlanRequest request = request_at(time);
+      request.goal_world = {30.0, 0.0};
+      request.world.tracks = &tracks;
+      request.world.sight.view_half = 0.75 * kPi;
+      commitment.begin_plan(StateEstimate{}, request);
+      const double direction = std::atan2(track.state.position_world.y(), track.state.position_world.x());
+      seen = seen || std::abs(angle_difference(direction, request.heading.heading)) <= 0.75 * kPi;
+      commitment.follow(request, follow(straight({0.0, 0.0}, {0.5, 0.0}, time, 20.0)));
+    }
+    EXPECT_TRUE(seen);
+  }
+}
+
 TEST(CommitmentHeading, WithABlindSideStandsAsItsGoalSaysAndDoesNotTurnWhereItIsToKeepItsHeading) {
   for (const HeadingMode mode : {HeadingMode::look, HeadingMode::keep}) {
     AgentParameters parameters;
