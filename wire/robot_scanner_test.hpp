@@ -37,16 +37,11 @@ class WrittenFile {
   std::filesystem::path path_;
 };
 
-struct ScannerFile {
-  explicit ScannerFile(const std::string& text) : file{text} {}
-  WrittenFile file;
-};
-
 template <class Ros>
-class RobotScanner : private ScannerFile, public RobotUnderWay<Ros> {
+class RobotScanner : private WrittenFile, public RobotUnderWay<Ros> {
  protected:
   explicit RobotScanner(const std::string& text = "host: {relies_on_obstacles: false}\n")
-      : ScannerFile{text}, RobotUnderWay<Ros>{{{}, file.path()}, 20.0} {}
+      : WrittenFile{text}, RobotUnderWay<Ros>{{{}, path()}, 20.0} {}
 
   void set_out() {
     ASSERT_NO_FATAL_FAILURE(this->start());
