@@ -137,19 +137,21 @@ class GymWorld {
     const py::ssize_t count = static_cast<py::ssize_t>(robots());
     py::array_t<double> pose({count, py::ssize_t{3}});
     py::array_t<double> goal({count, py::ssize_t{2}});
+    py::array_t<bool> observed(count);
     for (py::ssize_t i = 0; i < count; ++i) {
       const Pose2& measured = stepper_.poses()[static_cast<std::size_t>(i)].pose_world;
       const std::optional<host::Goal>& told = stepper_.world().goal(static_cast<int>(i));
       const Eigen::Vector2d to = told ? told->position_world : Eigen::Vector2d{kAbsent, kAbsent};
       Eigen::Map<Eigen::Vector3d>{pose.mutable_data(i, 0)} << measured.position_world, measured.heading;
       Eigen::Map<Eigen::Vector2d>{goal.mutable_data(i, 0)} = to;
+      observed.mutable_at(i) = stepper_.observed(static_cast<std::size_t>(i));
     }
     py::dict found;
     found["time"] = stepper_.world().time();
     found["pose"] = pose;
     found["goal"] = goal;
     found["obstacles"] = obstacles();
-    found["observed"] = stepper_.observed();
+    found["observed"] = observed;
     return found;
   }
 
@@ -243,7 +245,7 @@ class Fleet {
     std::vector<std::pair<int, HeardMessage>> said;
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (!stepper.world().robots()[i].active()) continue;
-      const Observation* seen = stepper.observed() ? &stepper.observations()[i] : nullptr;
+      const Observation* seen = stepper.observed(i) ? &stepper.observations()[i] : nullptr;
       const host::RobotOutput output =
           robots_[i].live(stepper.poses()[i], stepper.messages()[i], seen, stepper.world().time());
       if (output.broadcast) said.emplace_back(static_cast<int>(i), *output.broadcast);
@@ -296,7 +298,8 @@ void bind_world(py::module_& module) {
            "x, y [m], heading [rad]; goal (N, 2) [m], NaN: none; obstacles (N, M, 5) as each robot has seen "
            "them last, "
            "x, "
-           "y\n[m], their velocity [m/s], radius [m], NaN where there are fewer; observed, whether they are "
+           "y\n[m], their velocity [m/s], radius [m], NaN where there are fewer; observed (N,), whether they "
+           "are "
            "new.\nThe info is the truth: trial; pose (N, 3), velocity (N, 2) [m/s], arrived (N,), contacts.")
       .def(
           "step", &GymWorld::step, py::arg("action"),

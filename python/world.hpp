@@ -35,7 +35,7 @@ class WorldStepper {
   [[nodiscard]] const std::vector<PoseMeasurement>& poses() const { return poses_; }
   /// The last ones, and whether they are new with this step.
   [[nodiscard]] const std::vector<Observation>& observations() const { return observations_; }
-  [[nodiscard]] bool observed() const { return observed_; }
+  [[nodiscard]] bool observed(std::size_t robot) const { return observed_[robot]; }
   [[nodiscard]] const std::vector<std::vector<HeardMessage>>& messages() const { return messages_; }
 
  private:
@@ -49,7 +49,7 @@ class WorldStepper {
   std::optional<sim::Radio> radio_;
   std::vector<PoseMeasurement> poses_;
   std::vector<Observation> observations_;
-  bool observed_ = false;
+  std::vector<char> observed_;
   std::vector<std::vector<HeardMessage>> messages_;
 };
 

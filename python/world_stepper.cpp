@@ -38,7 +38,7 @@ void WorldStepper::step(const std::vector<DriveInput>& inputs) {
     if (world_->pose_due()) return sense();
     world_->end_tick();
   }
-  observed_ = false;
+  observed_.assign(poses_.size(), 0);
   orders_.clear();
   for (std::vector<HeardMessage>& heard : messages_) heard.clear();
 }
@@ -54,12 +54,13 @@ void WorldStepper::sense() {
                   [this](int receiver, const HeardMessage& message) {
                     messages_[as_index(receiver)].push_back(message);
                   });
-  observed_ = world_->observation_due();
+  observed_.assign(poses_.size(), 0);
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     if (!world_->robots()[i].active()) continue;
     const int robot = static_cast<int>(i);
     poses_[i] = world_->measure_pose(robot);
-    if (observed_) world_->observe(robot, observations_[i]);
+    observed_[i] = world_->observation_due(robot);
+    if (observed_[i]) world_->observe(robot, observations_[i]);
   }
 }
 

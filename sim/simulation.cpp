@@ -152,7 +152,7 @@ void Simulation::Implementation::observe() {
     Desk& desk = desks[i];
     const int robot = static_cast<int>(i);
     desk.input.pose = world.measure_pose(robot);
-    if (!world.observation_due()) continue;
+    if (!world.observation_due(robot)) continue;
     host::SensedWorld sensed;
     if (!desk.spare.empty()) {
       sensed = std::move(desk.spare.back());

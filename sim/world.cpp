@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "spf/math/phase.hpp"
+
 namespace spf::sim {
 namespace {
 
@@ -38,7 +40,11 @@ World::World(const Scenario& scenario)
       monitor_{scenario},
       meter_{scenario},
       life_{FleetLife{scenario}} {
+  observation_due_.assign(scenario.robots.size(), 0);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    const double own_tick = phase_of(static_cast<int>(i)) * static_cast<double>(ticks_.observation);
+    // One period early: all observe at the start.
+    next_observation_tick_.push_back(static_cast<long>(std::ceil(own_tick)) - ticks_.observation);
     const RobotTask& task = scenario.robots[i];
     RobotTruth truth;
     truth.pose = task.start;
@@ -151,11 +157,14 @@ void World::begin_tick() {
     dynamic_obstacles_.advance(time(), robots_);
     meter_.digest(robots_, dynamic_obstacles_.all());
   }
-  observation_due_ = false;
+  observation_due_.assign(robots_.size(), 0);
   if (!pose_due()) return;
   grid_.assign(positions_);
-  observation_due_ = tick_ >= next_observation_tick_;
-  while (next_observation_tick_ <= tick_) next_observation_tick_ += ticks_.observation;
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (tick_ < next_observation_tick_[i]) continue;
+    observation_due_[i] = 1;
+    while (next_observation_tick_[i] <= tick_) next_observation_tick_[i] += ticks_.observation;
+  }
 }
 
 PoseMeasurement World::measure_pose(int robot) {

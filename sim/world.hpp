@@ -33,7 +33,8 @@ class World {
   /// Whether the dynamic obstacles begin a step of 0.1 s with this tick.
   [[nodiscard]] bool step_due() const { return tick_ % ticks_.step == 0; }
   [[nodiscard]] bool pose_due() const { return tick_ % ticks_.pose == 0; }
-  [[nodiscard]] bool observation_due() const { return observation_due_; }
+  /// Of all robots at the start, then each at its own instants of the period (phase_of), as scanners do.
+  [[nodiscard]] bool observation_due(int robot) const { return observation_due_[as_index(robot)]; }
   [[nodiscard]] double pose_interval() const {
     return static_cast<double>(ticks_.pose) / plant_rate_;
   }  ///< [s]
@@ -128,8 +129,8 @@ class World {
   double time_limit_;  // [s]
 
   long tick_ = 0;
-  long next_observation_tick_ = 0;  // on the first pose tick from here
-  bool observation_due_ = false;
+  std::vector<long> next_observation_tick_;  // by robot: on the first pose tick from here
+  std::vector<char> observation_due_;        // by robot
   std::size_t contacts_seen_ = 0;
   std::vector<RobotTruth> robots_;
   std::vector<DriveDynamics> plants_;

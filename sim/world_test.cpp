@@ -75,26 +75,31 @@ TEST(World, IdealMotionPutsARobotWhereTheHostSays) {
 }
 
 TEST(World, SensorsAreDueAtTheirRates) {
-  Scenario scenario = lanes(1);
+  Scenario scenario = lanes(2);
   scenario.simulation.trial.plant_rate = 200.0;
   scenario.simulation.pose_noise.rate = 50.0;
   scenario.simulation.sensing.rate = 4.0;
   World world{scenario};
   int poses = 0;
-  int observations = 0;
+  std::vector<int> observations(2, 0);
+  int at_once = 0;
   int steps = 0;
   for (int tick = 0; tick < 400; ++tick) {
     world.begin_tick();
     if (world.pose_due()) ++poses;
     if (world.step_due()) ++steps;
-    if (world.observation_due()) {
+    for (const int robot : {0, 1}) {
+      if (!world.observation_due(robot)) continue;
       EXPECT_TRUE(world.pose_due());
-      ++observations;
+      ++observations[as_index(robot)];
     }
+    if (world.observation_due(0) && world.observation_due(1)) ++at_once;
     world.end_tick();
   }
   EXPECT_EQ(poses, 100);
-  EXPECT_EQ(observations, 8);
+  EXPECT_EQ(observations[0], 8);
+  EXPECT_EQ(observations[1], 9);
+  EXPECT_EQ(at_once, 1);  // at the start
   EXPECT_EQ(steps, 20);
   EXPECT_DOUBLE_EQ(world.pose_interval(), 0.02);
 }

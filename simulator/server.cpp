@@ -101,7 +101,7 @@ bool Server::tick(Outlet& outlet) {
     tell_orders(outlet);
     tell_poses(outlet);
   }
-  if (world_.observation_due()) tell_observations(outlet);
+  tell_observations(outlet);
   if (world_.step_due()) tell(outlet, &WorldListener::scene);
   if (world_.time() + kTimeRounding >= next_outcome_) tell_outcome(outlet);
   const bool goes_on = outlet.serve_until(pace_.due(world_.next_time()));
@@ -148,7 +148,7 @@ void Server::tell_poses(Outlet& outlet) {
 void Server::tell_observations(Outlet& outlet) {
   const bool reports = settings_.scenario.simulation.sensing.detections != sim::DetectionQuality::scan;
   for (int i = 0; i < count(); ++i) {
-    if (!world_.robots()[as_index(i)].active()) continue;
+    if (!world_.observation_due(i) || !world_.robots()[as_index(i)].active()) continue;
     world_.observe(i, observation_);
     if (reports && !dropped(FaultyTopic::obstacles, i))
       tell(outlet, &WorldListener::obstacles, i, observation_.detections);

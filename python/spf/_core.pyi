@@ -1493,7 +1493,7 @@ class World:
         """Begins a trial and returns (observation, info): {"trial": k} in `options`, or the one after the
         last. `seed` replaces the scenario's. The observation is a dict: time [s]; pose (N, 3) as measured,
         x, y [m], heading [rad]; goal (N, 2) [m], NaN: none; obstacles (N, M, 5) as each robot has seen them last, x, y
-        [m], their velocity [m/s], radius [m], NaN where there are fewer; observed, whether they are new.
+        [m], their velocity [m/s], radius [m], NaN where there are fewer; observed (N,), whether they are new.
         The info is the truth: trial; pose (N, 3), velocity (N, 2) [m/s], arrived (N,), contacts."""
     def step(self, action: ArrayLike) -> tuple[dict[str, Any], NDArray[np.float64], bool, bool, dict[str, Any]]:
         """Holds inputs (N, inputs) until the next pose: rim speeds [m/s] of the wheels, of a car rim speed

@@ -22,7 +22,7 @@ def drive(world, robots):
             robot.add_pose(now, observation["pose"][i], now)
             for message in world.messages(i):
                 robot.add_message(message, now)
-            if observation["observed"]:
+            if observation["observed"][i]:
                 robot.add_observation(world.observation(i), now)
             output = robot.step(now)
             actions[i] = output["wheel_speeds"]
@@ -128,7 +128,7 @@ def test_shapes_and_rewards():
     observation, info = world.reset()
     assert info["trial"] == 0 and world.reset()[1]["trial"] == 1
     observation, info = world.reset(options={"trial": 7})
-    assert observation["time"] == 0.0 and observation["observed"]
+    assert observation["time"] == 0.0 and observation["observed"].all()
     assert observation["pose"].shape == info["pose"].shape == (5, 3)
     assert observation["goal"].shape == info["velocity"].shape == (5, 2)
     assert observation["obstacles"].shape[0] == 5 and observation["obstacles"].shape[2] == 5

@@ -1,22 +1,27 @@
-// When the agent plans: at a period, and sooner where something has come that is not to wait for it. Times
-// [s].
+// When the agent plans: at a period, each robot at its own instants of it, and sooner where something has
+// come that is not to wait for it. Times [s].
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "spf/team/schedule.hpp"
 
 namespace spf {
 
+/// Robots that plan at the same instant answer each other's last plan, not the one that is being made: two
+/// that dodge to one side do so again and again. So each plans at an instant of its own within the period.
 class PlanSchedule {
  public:
   /// [s] Observations may come so much later than a period after the last ones, and half a period at most,
   /// before a plan is made without them.
   static constexpr double kLongestDelay = 0.05;
 
-  /// The first plan is due at `time`.
-  PlanSchedule(double period, double time) : period_{period}, next_{time} {}
+  /// The first plan is due at `time`, the others when the clock reads `phase` periods and a whole number of
+  /// them, so that robots whose clocks agree keep apart.
+  PlanSchedule(double period, double time, double phase)
+      : period_{period}, next_{time}, since_{(std::floor(time / period) + phase) * period} {}
 
   [[nodiscard]] bool due(double now) const { return is_due(next_, now); }
   /// When the next plan is due at the latest.
@@ -34,17 +39,18 @@ class PlanSchedule {
   /// lest it come just after a plan that was made without it.
   void planned(double now) {
     if (!forward_) {
-      next_ = next_due(next_, period_, now);
+      next_ = since_ + period_ * (std::floor((now + kTimeTolerance - since_) / period_) + 1.0);
       return;
     }
     forward_ = false;
     last_forward_ = now;
-    next_ = now + period_ + std::min(0.5 * period_, kLongestDelay);
+    next_ = since_ = now + period_ + std::min(0.5 * period_, kLongestDelay);
   }
 
  private:
   double period_;
   double next_;
+  double since_;          // plans of the period are due whole periods before and after this instant
   bool forward_ = false;  // the next plan was brought forward
   double last_forward_ = -std::numeric_limits<double>::infinity();
 };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "spf/math/random_stream.hpp"
@@ -14,7 +15,7 @@ constexpr double kLeastApart = 0.02;
 constexpr double kOneTick = 0.001;
 
 TEST(PlanSchedule, KeepsItsPeriodWhereNothingIsBroughtForward) {
-  PlanSchedule schedule{kPlanPeriod, 5.0};
+  PlanSchedule schedule{kPlanPeriod, 5.0, 0.0};
   for (int plan = 0; plan < 10; ++plan) {
     const double time = 5.0 + kPlanPeriod * plan;
     EXPECT_FALSE(schedule.due(time - kOneTick));
@@ -23,8 +24,29 @@ TEST(PlanSchedule, KeepsItsPeriodWhereNothingIsBroughtForward) {
   }
 }
 
+/// Wherever its clock stood when it was made.
+TEST(PlanSchedule, PlansAtItsOwnInstantsOfThePeriodAfterTheFirst) {
+  constexpr double kPhase = 0.4;
+  for (const double start : {0.0, 0.02, 0.05, 7.13, 1.7e9 + 0.061}) {
+    SCOPED_TRACE(start);
+    PlanSchedule schedule{kPlanPeriod, start, kPhase};
+    ASSERT_TRUE(schedule.due(start));
+    schedule.planned(start);
+    for (int plan = 0; plan < 100; ++plan) {
+      const double time = schedule.next();
+      ASSERT_LE(time, start + (plan + 1) * kPlanPeriod + 1e-6);
+      const double periods = time / kPlanPeriod - kPhase;
+      ASSERT_NEAR(periods, std::round(periods), 1e-5);
+      schedule.planned(time);
+    }
+    schedule.planned(start + 1000.013);  // nor does it lose them after a pause
+    const double periods = schedule.next() / kPlanPeriod - kPhase;
+    EXPECT_NEAR(periods, std::round(periods), 1e-5);
+  }
+}
+
 TEST(PlanSchedule, WhatHasComeIsPlannedWithAtOnce) {
-  PlanSchedule schedule{kPlanPeriod, 0.0};
+  PlanSchedule schedule{kPlanPeriod, 0.0, 0.0};
   schedule.planned(0.0);
   schedule.bring_forward(0.037, kLeastApart);
   EXPECT_FALSE(schedule.due(0.036));
@@ -34,7 +56,7 @@ TEST(PlanSchedule, WhatHasComeIsPlannedWithAtOnce) {
 }
 
 TEST(PlanSchedule, WhatComesTooSoonWaitsForTheLeastInterval) {
-  PlanSchedule schedule{kPlanPeriod, 0.0};
+  PlanSchedule schedule{kPlanPeriod, 0.0, 0.0};
   schedule.bring_forward(0.0, kLeastApart);
   schedule.planned(0.0);
   schedule.bring_forward(0.005, kLeastApart);
@@ -46,14 +68,14 @@ TEST(PlanSchedule, WhatComesTooSoonWaitsForTheLeastInterval) {
 }
 
 TEST(PlanSchedule, APlanOfThePeriodDelaysNothingThatComesAfterIt) {
-  PlanSchedule schedule{kPlanPeriod, 0.0};
+  PlanSchedule schedule{kPlanPeriod, 0.0, 0.0};
   schedule.planned(0.0);
   schedule.bring_forward(0.001, kLeastApart);
   EXPECT_TRUE(schedule.due(0.001));
 }
 
 TEST(PlanSchedule, WaitsALittleForWhatComesRegularlyAndThenKeepsItsPeriod) {
-  PlanSchedule schedule{kPlanPeriod, 0.0};
+  PlanSchedule schedule{kPlanPeriod, 0.0, 0.0};
   schedule.bring_forward(0.0, kLeastApart);
   schedule.planned(0.0);
   const double latest = kPlanPeriod + PlanSchedule::kLongestDelay;
@@ -66,8 +88,8 @@ TEST(PlanSchedule, WaitsALittleForWhatComesRegularlyAndThenKeepsItsPeriod) {
 }
 
 TEST(PlanSchedule, AnIntervalOfAPeriodLeavesThePeriodAlone) {
-  PlanSchedule schedule{kPlanPeriod, 0.0};
-  PlanSchedule undisturbed{kPlanPeriod, 0.0};
+  PlanSchedule schedule{kPlanPeriod, 0.0, 0.0};
+  PlanSchedule undisturbed{kPlanPeriod, 0.0, 0.0};
   for (int tick = 0; tick < 1000; ++tick) {
     const double now = 0.01 * tick;
     schedule.bring_forward(now, kPlanPeriod);
@@ -84,7 +106,7 @@ TEST(PlanSchedule, IsBoundedHoweverOftenSomethingComes) {
   for (const double mean_gap : {0.0005, 0.01, 0.025, 0.1, 0.4}) {
     SCOPED_TRACE(mean_gap);
     RandomStream random{7};
-    PlanSchedule schedule{kPlanPeriod, 0.0};
+    PlanSchedule schedule{kPlanPeriod, 0.0, 0.0};
     double next_arrival = 0.0;
     double waits_since = -1.0;  // < 0: nothing waits
     double last_plan = 0.0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "spf/math/phase.hpp"
 #include "spf/planning/contact_risk.hpp"
 #include "spf/robot/drive_dynamics.hpp"
 #include "spf/team/announcement.hpp"
@@ -65,7 +66,7 @@ RobotAgent::Implementation::Implementation(int robot_id, const AgentParameters& 
       right_of_way{parameters.robot, planner->gives_way()},
       commitment{parameters, start, time},
       announcement{robot_id, parameters, time},
-      schedule{parameters.team.plan_period, time} {
+      schedule{parameters.team.plan_period, time, phase_of(robot_id)} {
   result.trajectory = commitment.trajectory();
 }
 
