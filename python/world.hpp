@@ -25,16 +25,16 @@ class WorldStepper {
   [[nodiscard]] const sim::World& world() const { return *world_; }
   [[nodiscard]] const ScenarioFile& scenario() const { return scenario_; }
   [[nodiscard]] int trial() const { return trial_; }
-  /// How often it has begun.
   /// What robots are told with this step, or befalls them.
   [[nodiscard]] const std::vector<sim::FleetOrder>& orders() const { return orders_; }
+  /// How often it has begun.
   [[nodiscard]] int beginnings() const { return beginnings_; }
   [[nodiscard]] bool finished() const { return world_->finished(); }
 
   // As last sensed, by robot.
   [[nodiscard]] const std::vector<PoseMeasurement>& poses() const { return poses_; }
-  /// The last ones, and whether they are new with this step.
   [[nodiscard]] const std::vector<Observation>& observations() const { return observations_; }
+  /// Whether a robot's is new with this step.
   [[nodiscard]] bool observed(std::size_t robot) const { return observed_[robot]; }
   [[nodiscard]] const std::vector<std::vector<HeardMessage>>& messages() const { return messages_; }
 

@@ -13,13 +13,13 @@
 
 namespace spf {
 
-/// Obstacles and peers of one planning call, tabulated over the horizon.
 /// How much the risk of tracks that move counts.
 struct MovingRisk {
   double weight = 1.0;          ///< [1]
   double discount_share = 1.0;  ///< [1] of discount_time
 };
 
+/// Obstacles and peers of one planning call, tabulated over the horizon.
 class SpaceTimeRisk {
  public:
   static constexpr int kMaxSteps = 30;
