@@ -39,7 +39,10 @@ class PlanSchedule {
   /// lest it come just after a plan that was made without it.
   void planned(double now) {
     if (!forward_) {
-      next_ = since_ + period_ * (std::floor((now + kTimeTolerance - since_) / period_) + 1.0);
+      double periods = std::ceil((now - since_) / period_);
+      // Not the same one again, however coarse large times are.
+      if (since_ + period_ * periods <= now + kTimeTolerance) periods += 1.0;
+      next_ = since_ + period_ * periods;
       return;
     }
     forward_ = false;

@@ -38,6 +38,7 @@ TEST(PlanSchedule, PlansAtItsOwnInstantsOfThePeriodAfterTheFirst) {
       const double periods = time / kPlanPeriod - kPhase;
       ASSERT_NEAR(periods, std::round(periods), 1e-5);
       schedule.planned(time);
+      ASSERT_GT(schedule.next(), time + 0.9 * kPlanPeriod);
     }
     schedule.planned(start + 1000.013);  // nor does it lose them after a pause
     const double periods = schedule.next() / kPlanPeriod - kPhase;
